@@ -1,0 +1,84 @@
+#include "run_case.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+namespace {
+
+constexpr int kBadInput = 2;
+constexpr int kFailedRun = 3;
+constexpr double kSecondsBetweenReports = 1;
+
+constexpr char kUsage[] =
+    R"(usage: lbm run CASE.json
+
+Runs the fluid of CASE.json until it is steady (or for stop.max_steps steps). Result as JSON on standard output, progress on standard
+error. "-" reads the case from standard input. The user guide describes the keys: docs/user-guide.md.
+
+exit status: 0, 2 for bad input, 3 for a run that diverged or did not become steady
+)";
+
+nlohmann::json parse(const std::string& path)
+{
+    try {
+        if (path == "-") return nlohmann::json::parse(std::cin);
+        std::ifstream file(path);
+        if (!file) throw lbm::ConfigError(path + ": cannot be read");
+        return nlohmann::json::parse(file);
+    } catch (const nlohmann::json::parse_error& error) {
+        throw lbm::ConfigError(path + ": not valid JSON: " + error.what());
+    }
+}
+
+int run(const std::string& path)
+{
+    const lbm::Case input = lbm::read_case(parse(path));
+    double last = 0;
+    bool shown = false;
+    const bool terminal = isatty(STDERR_FILENO);
+    const auto result = lbm::run_case(input, [&](const lbm::Progress& p) {
+        if (p.seconds - last < kSecondsBetweenReports) return;
+        last = p.seconds;
+        shown = true;
+        std::fprintf(stderr, "%sstep %lld of at most %lld, %.0f s, change %.1e%s", terminal ? "\r" : "",
+                     static_cast<long long>(p.step), static_cast<long long>(p.max_steps), p.seconds, p.change,
+                     terminal ? "   " : "\n");
+    });
+    if (shown && terminal) std::fputc('\n', stderr);
+    std::cout << result.json.dump(2) << '\n';
+    if (input.steady > 0 && !result.converged) {
+        std::fprintf(stderr, "lbm: not steady to %g after %lld steps: raise stop.max_steps\n", input.steady,
+                     static_cast<long long>(input.max_steps));
+        return kFailedRun;
+    }
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    if (arguments.size() == 1 && (arguments[0] == "--help" || arguments[0] == "-h")) {
+        std::fputs(kUsage, stdout);
+        return 0;
+    }
+    if (arguments.size() != 2 || arguments[0] != "run") {
+        std::fputs(kUsage, stderr);
+        return kBadInput;
+    }
+    try {
+        return run(arguments[1]);
+    } catch (const lbm::ConfigError& error) {
+        std::fprintf(stderr, "lbm: %s\n", error.what());
+        return kBadInput;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "lbm: %s\n", error.what());
+        return kFailedRun;
+    }
+}

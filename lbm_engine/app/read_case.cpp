@@ -1,0 +1,216 @@
+#include "read_case.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+namespace lbm {
+namespace {
+
+using Json = nlohmann::json;
+
+/// An object of the case, with its place in it for messages. Every key must be asked for: those left over are unknown.
+class Section {
+public:
+    Section(const Json& json, std::string path) : json_(json), path_(std::move(path))
+    {
+        if (!json.is_object()) throw ConfigError(path_ + ": must be an object");
+    }
+
+    bool has(const char* key)
+    {
+        known_.insert(key);
+        return json_.contains(key);
+    }
+    const Json& at(const char* key)
+    {
+        if (!has(key)) throw ConfigError(name(key) + ": missing");
+        return json_.at(key);
+    }
+    Section section(const char* key) { return {at(key), name(key)}; }
+    std::string name(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+
+    double number(const char* key)
+    {
+        const Json& value = at(key);
+        if (!value.is_number()) throw ConfigError(name(key) + ": must be a number");
+        return value.get<double>();
+    }
+    double number(const char* key, double otherwise) { return has(key) ? number(key) : otherwise; }
+    std::int64_t count(const char* key, std::int64_t otherwise)
+    {
+        if (!has(key)) return otherwise;
+        const double value = number(key);
+        if (value != std::floor(value) || value < 0 || value > 9e15)
+            throw ConfigError(name(key) + ": must be a whole number >= 0");
+        return static_cast<std::int64_t>(value);
+    }
+    bool flag(const char* key, bool otherwise)
+    {
+        if (!has(key)) return otherwise;
+        if (!json_.at(key).is_boolean()) throw ConfigError(name(key) + ": must be true or false");
+        return json_.at(key).get<bool>();
+    }
+    std::string text(const char* key, const std::string& otherwise)
+    {
+        if (!has(key)) return otherwise;
+        if (!json_.at(key).is_string()) throw ConfigError(name(key) + ": must be a string");
+        return json_.at(key).get<std::string>();
+    }
+    /// @throws ConfigError unless the value is one of those listed
+    std::string choice(const char* key, const std::string& otherwise, std::initializer_list<const char*> allowed)
+    {
+        const std::string value = text(key, otherwise);
+        std::string list;
+        for (const char* one : allowed) {
+            if (value == one) return value;
+            list += list.empty() ? one : std::string(", ") + one;
+        }
+        throw ConfigError(name(key) + " = \"" + value + "\": must be one of " + list);
+    }
+    Vec3 vector(const char* key)
+    {
+        const Json& value = at(key);
+        if (!value.is_array() || value.size() != 3) throw ConfigError(name(key) + ": must be a list of three numbers");
+        Vec3 v{};
+        for (int d = 0; d < 3; ++d) {
+            if (!value[d].is_number()) throw ConfigError(name(key) + ": must be a list of three numbers");
+            v[d] = value[d].get<double>();
+        }
+        return v;
+    }
+    Vec3 vector(const char* key, const Vec3& otherwise) { return has(key) ? vector(key) : otherwise; }
+
+    /// @throws ConfigError if there is a key that nobody asked for
+    void close() const
+    {
+        for (const auto& item : json_.items())
+            if (!known_.count(item.key())) {
+                std::string list;
+                for (const std::string& key : known_) list += (list.empty() ? "" : ", ") + key;
+                throw ConfigError(name(item.key()) + ": unknown key; known here: " + list);
+            }
+    }
+
+private:
+    const Json& json_;
+    std::string path_;
+    std::set<std::string> known_;
+};
+
+void read_face(Section face, FaceCondition& condition)
+{
+    face.choice("type", "noSlip", {"noSlip"});
+    condition.type = FaceType::no_slip;
+    condition.velocity = face.vector("velocity", {});
+    face.close();
+}
+
+void read_boundaries(Section boundaries, FluidConfig& fluid)
+{
+    for (int d = 0; d < 3; ++d) {
+        const char axis[] = {"xyz"[d], 0};
+        if (!boundaries.has(axis)) continue;
+        if (boundaries.at(axis).is_string()) {
+            boundaries.choice(axis, "", {"periodic"});
+            continue;
+        }
+        Section pair = boundaries.section(axis);
+        read_face(pair.section("min"), fluid.faces[2 * d]);
+        read_face(pair.section("max"), fluid.faces[2 * d + 1]);
+        pair.close();
+    }
+    boundaries.close();
+}
+
+CaseSolid read_solid(Section s, std::int64_t id)
+{
+    CaseSolid entry;
+    s.choice("shape", "sphere", {"sphere"});
+    Solid& solid = entry.solid;
+    solid.id = id;
+    solid.position = s.vector("center");
+    solid.radius = s.number("radius");
+    solid.velocity = s.vector("velocity", {});
+    solid.angular_velocity = s.vector("angular_velocity", {});
+    entry.moving = s.flag("moving", false);
+    entry.free = s.flag("free", false);
+    if (entry.free) {
+        const double density = s.number("density");
+        if (!(std::isfinite(density) && density > 0))
+            throw ConfigError(s.name("density") + ": must be finite and > 0 [kg/m3]");
+        solid.mass = 4 * std::numbers::pi / 3 * std::pow(solid.radius, 3) * density;
+        solid.inertia = 0.4 * solid.mass * solid.radius * solid.radius;
+    } else if (s.has("density")) {
+        throw ConfigError(s.name("density") + ": only a free solid has one; add \"free\": true");
+    }
+    s.close();
+    return entry;
+}
+
+}  // namespace
+
+Case read_case(const Json& json)
+{
+    Case result;
+    FluidConfig& fluid = result.fluid;
+    Section root(json, "");
+
+    Section domain = root.section("domain");
+    const Vec3 cells = domain.vector("cells");
+    for (int d = 0; d < 3; ++d) {
+        if (cells[d] != std::floor(cells[d]) || cells[d] < 1 || cells[d] > 1e6)
+            throw ConfigError("domain.cells: must be three whole numbers from 1 to 1e6");
+        fluid.cells[d] = static_cast<int>(cells[d]);
+    }
+    fluid.dx = domain.number("dx");
+    fluid.lower = domain.vector("lower", {});
+    domain.close();
+
+    Section material = root.section("fluid");
+    fluid.density = material.number("density");
+    fluid.viscosity = material.number("viscosity");
+    material.close();
+
+    fluid.tau = root.number("tau");
+    fluid.magic_parameter = root.number("magic_parameter", fluid.magic_parameter);
+    root.choice("scheme", "exact", {"exact"});
+    root.choice("collision", "trt", {"trt"});
+    fluid.storage = root.choice("storage", "double", {"double", "single"}) == "single" ? Storage::single_precision
+                                                                                       : Storage::double_precision;
+    fluid.inertia = root.flag("inertia", true);
+    fluid.acceleration = root.vector("acceleration", {});
+    fluid.gravity = root.vector("gravity", {});
+    fluid.max_mach = root.number("max_mach", fluid.max_mach);
+    fluid.threads = static_cast<int>(std::min<std::int64_t>(root.count("threads", 0), 4096));
+    if (root.has("boundaries")) read_boundaries(root.section("boundaries"), fluid);
+
+    if (root.has("solids")) {
+        if (!root.at("solids").is_array()) throw ConfigError("solids: must be a list");
+        std::int64_t id = 0;
+        for (const Json& solid : root.at("solids")) {
+            result.solids.push_back(read_solid({solid, "solids[" + std::to_string(id) + "]"}, id));
+            ++id;
+        }
+    }
+    if (root.has("stop")) {
+        Section stop = root.section("stop");
+        result.steady = stop.number("steady", 0);
+        if (!(std::isfinite(result.steady) && result.steady >= 0))
+            throw ConfigError("stop.steady: must be finite and >= 0");
+        result.max_steps = stop.count("max_steps", result.max_steps);
+        stop.close();
+    }
+    if (root.has("output")) {
+        Section output = root.section("output");
+        result.vtk = output.text("vtk", "");
+        output.close();
+    }
+    root.close();
+    return result;
+}
+
+}  // namespace lbm

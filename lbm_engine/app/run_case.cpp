@@ -1,0 +1,147 @@
+#include "run_case.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lbm {
+namespace {
+
+constexpr std::int64_t kSmallestWindow = 200;
+
+double size(const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+double distance(const Vec3& a, const Vec3& b) { return size({a[0] - b[0], a[1] - b[1], a[2] - b[2]}); }
+
+std::int64_t window(const FluidConfig& c)
+{
+    const double L = *std::max_element(c.cells.begin(), c.cells.end());
+    const double nu = (c.tau - 0.5) / 3;
+    return std::max(kSmallestWindow,
+                    static_cast<std::int64_t>(0.1 * L * L / (std::numbers::pi * std::numbers::pi * nu)));
+}
+
+/// What must stand still in a steady run.
+struct Snapshot {
+    Vec3 velocity;
+    std::vector<SolidLoad> loads;
+    std::vector<double> radius;
+};
+
+/// Largest change relative to the size of the quantity; a torque counts against force times radius where it is small.
+double change(const Snapshot& before, const Snapshot& now)
+{
+    const auto relative = [](double difference, double scale) {
+        return difference == 0 ? 0 : scale > 0 ? difference / scale : std::numeric_limits<double>::infinity();
+    };
+    double largest = relative(distance(before.velocity, now.velocity), size(now.velocity));
+    for (std::size_t s = 0; s < now.loads.size(); ++s) {
+        const SolidLoad &a = before.loads[s], &b = now.loads[s];
+        const double lever = now.radius[s];
+        const double scale = std::max(size(b.force), size(b.torque) / lever);
+        largest = std::max({largest, relative(distance(a.force, b.force), scale),
+                            relative(distance(a.torque, b.torque), scale * lever)});
+    }
+    return largest;
+}
+
+/// Moves the solids of a case from step to step.
+class Motion {
+public:
+    Motion(const Case& input, double dt) : kinds_(input.solids), dt_(dt), gravity_(input.fluid.gravity)
+    {
+        for (const CaseSolid& s : input.solids) solids_.push_back(s.solid);
+    }
+    const std::vector<Solid>& solids() const noexcept { return solids_; }
+    /// Semi-implicit Euler: velocities with the loads (and weight), then positions.
+    void advance(const std::vector<SolidLoad>& loads)
+    {
+        for (std::size_t s = 0; s < solids_.size(); ++s) {
+            Solid& solid = solids_[s];
+            for (int d = 0; d < 3; ++d) {
+                if (kinds_[s].free) {
+                    solid.velocity[d] += dt_ * (loads[s].force[d] / solid.mass + gravity_[d]);
+                    solid.angular_velocity[d] += dt_ * loads[s].torque[d] / solid.inertia;
+                }
+                if (kinds_[s].free || kinds_[s].moving) solid.position[d] += dt_ * solid.velocity[d];
+            }
+        }
+    }
+
+private:
+    std::vector<CaseSolid> kinds_;
+    std::vector<Solid> solids_;
+    double dt_;
+    Vec3 gravity_;
+};
+
+}  // namespace
+
+CaseResult run_case(const Case& input, const std::function<void(const Progress&)>& report)
+{
+    Fluid fluid(input.fluid);
+    Motion motion(input, fluid.dt());
+    fluid.place_solids(motion.solids());
+    const double mass = fluid.total_mass();
+    const std::int64_t steps_between = window(input.fluid);
+
+    const auto snapshot = [&] {
+        Snapshot now{fluid.average_velocity(), fluid.loads(), {}};
+        for (const Solid& s : motion.solids()) now.radius.push_back(s.radius);
+        return now;
+    };
+    Snapshot before = snapshot();
+    double latest_change = std::numeric_limits<double>::infinity();
+    bool converged = false;
+    const auto start = std::chrono::steady_clock::now();
+    const auto seconds = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+
+    while (fluid.steps() < input.max_steps && !converged) {
+        fluid.step();
+        motion.advance(fluid.loads());
+        fluid.place_solids(motion.solids());
+        if (input.steady > 0 && fluid.steps() % steps_between == 0) {
+            Snapshot now = snapshot();
+            latest_change = change(before, now);
+            converged = latest_change < input.steady;
+            before = std::move(now);
+        }
+        if (fluid.steps() % 16 == 0) report({fluid.steps(), input.max_steps, seconds(), latest_change});
+    }
+    const double elapsed = seconds();
+    if (!input.vtk.empty()) fluid.save_vtk(input.vtk);
+
+    nlohmann::json json;
+    json["steps"] = fluid.steps();
+    json["converged"] = converged;
+    json["tau"] = input.fluid.tau;
+    json["dt"] = fluid.dt();
+    json["time"] = fluid.time();
+    json["superficial_velocity"] = fluid.average_velocity();
+    json["solids"] = nlohmann::json::array();
+    for (std::size_t s = 0; s < motion.solids().size(); ++s) {
+        const Solid& solid = motion.solids()[s];
+        const SolidLoad& load = fluid.loads()[s];
+        json["solids"].push_back({{"force", load.force},
+                                  {"torque", load.torque},
+                                  {"stresslet", load.stresslet},
+                                  {"position", solid.position},
+                                  {"velocity", solid.velocity},
+                                  {"angular_velocity", solid.angular_velocity}});
+    }
+    const double k = fluid.permeability();
+    json["permeability"] = std::isfinite(k) ? nlohmann::json(k) : nlohmann::json(nullptr);
+    json["mass_drift"] = fluid.total_mass() / mass - 1;
+    json["max_mach"] = fluid.max_mach();
+    const double cells = double(input.fluid.cells[0]) * input.fluid.cells[1] * input.fluid.cells[2];
+    json["mlups"] = elapsed > 0 ? cells * fluid.steps() / elapsed / 1e6 : 0.0;
+    json["seconds"] = elapsed;
+    return {json, converged};
+}
+
+}  // namespace lbm

@@ -1,0 +1,89 @@
+#pragma once
+
+#include "lbm/errors.hpp"
+#include "lbm/fluid_config.hpp"
+#include "lbm/solid.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lbm {
+
+/// Wall-clock time spent in the parts of a step since construction [s].
+struct StepTimes {
+    double map = 0;             ///< solids onto the lattice
+    double exchange = 0;        ///< faces
+    double collide_stream = 0;  ///< the sweep over the cells
+    double loads = 0;           ///< sums over the solids
+};
+
+/**
+ * A box of viscous fluid with rigid solids in it: D3Q19, two relaxation times, viscosity-exact partially saturated cells.
+ *
+ * A coupled step reads: `place_solids` (where they are now), `step`, `loads` (what to apply until the next step).
+ * All quantities are SI. The object is valid from construction on, prints nothing and owns the whole state of the fluid.
+ */
+class Fluid {
+public:
+    /**
+     * Fluid at rest, without solids.
+     * @throws ConfigError  for a value outside its range; the message names it and says what would do
+     */
+    explicit Fluid(const FluidConfig& config);
+    ~Fluid();
+    Fluid(Fluid&&) noexcept;
+    Fluid& operator=(Fluid&&) noexcept;
+
+    const FluidConfig& config() const noexcept;
+
+    /**
+     * The solids that are in the fluid now. They replace the earlier set: a solid is known by its id, one that was there before
+     * keeps its momentum bookkeeping, new ones start consistent with the flow around them, the others leave. A
+     * solid that has not moved costs nothing. Spheres may overlap each other and stand out of no-slip faces.
+     * @throws ConfigError  for a radius below two cells or a sphere larger than the box, a value that is not finite, an id given twice
+     */
+    void place_solids(const std::vector<Solid>& solids);
+
+    /**
+     * One fluid step of length dt().
+     * @throws RunError  if the flow diverged or went beyond the Mach limit, with where and when
+     */
+    void step();
+
+    /// Loads of the last step, in the order of the last `place_solids`; zero before the first step.
+    const std::vector<SolidLoad>& loads() const noexcept;
+
+    double dt() const noexcept;    ///< [s]
+    double time() const noexcept;  ///< steps() * dt() [s]
+    std::int64_t steps() const noexcept;
+    double max_mach() const noexcept;  ///< largest Mach number seen in the last step [-]
+    StepTimes times() const noexcept;
+    std::size_t memory_bytes() const noexcept;  ///< populations and solids' maps
+
+    Vec3 average_velocity() const;  ///< superficial: over all cells, solid ones included [m/s]
+    double permeability() const;    ///< nu U.a / |a|^2 for the drive a [m2]; NaN without one
+    double total_mass() const;      ///< of the lattice's fluid [kg]
+    /// Momentum of the fluid outside the solids, with the part of it that is on its way to them [kg m/s]: adding the solids' own
+    /// (m V) gives a sum that only drive, weight and walls change.
+    Vec3 total_momentum() const;
+    double kinetic_energy() const;          ///< of the fluid outside the solids [J]
+    double mean_density_deviation() const;  ///< relative to `density` [-]
+
+    Vec3 velocity_at(const Vec3& position) const;      ///< trilinear; @throws ConfigError outside the box [m/s]
+    double pressure_at(const Vec3& position) const;    ///< excess over hydrostatic and drive, trilinear [Pa]
+    std::vector<double> velocity_field() const;        ///< (nz, ny, nx, 3) [m/s]
+    std::vector<double> pressure_field() const;        ///< (nz, ny, nx) [Pa]
+    std::vector<double> solid_fraction_field() const;  ///< (nz, ny, nx) [-]
+
+    /// Writes velocity, pressure and solid fraction as VTK image data (.vti). @throws RunError if the file cannot be written
+    void save_vtk(const std::string& path) const;
+
+private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace lbm

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "lbm/solid.hpp"
+
+#include <array>
+#include <limits>
+
+namespace lbm {
+
+/// Faces of the box, in the order used by every array of six.
+enum Face { kXMin, kXMax, kYMin, kYMax, kZMin, kZMax };
+
+enum class FaceType { periodic, no_slip };
+
+/// What happens at one face of the box. A no-slip face stands half a cell outside the last cell centres.
+struct FaceCondition {
+    FaceType type = FaceType::periodic;
+    Vec3 velocity{};  ///< of a no-slip wall, in its own plane [m/s]
+};
+
+/// How much storage a population takes. Populations are kept as deviations from rest.
+enum class Storage { double_precision, single_precision };
+
+/// Everything that defines a fluid. SI units.
+struct FluidConfig {
+    Vec3 lower{};                ///< lower corner of the box [m]
+    std::array<int, 3> cells{};  ///< cells along x, y, z, each >= 1
+    double dx = 0;               ///< cell size [m], > 0
+    double density = 0;          ///< [kg/m3], > 0
+    double viscosity = 0;        ///< dynamic [Pa s], > 0
+    double tau = 0;              ///< relaxation time [fluid steps], kMinTau to kMaxTau; sets the time step
+    double magic_parameter = std::numeric_limits<double>::quiet_NaN();  ///< Lambda > 0; NaN: the scheme's own, 1/8
+    Vec3 gravity{};       ///< buoyancy on solids [m/s2]; hydrostatic pressure is left out of the fields
+    Vec3 acceleration{};  ///< uniform drive: a mean pressure gradient of -density * acceleration [m/s2]
+    std::array<FaceCondition, 6> faces{};
+    bool inertia = true;  ///< false: Stokes flow, the quadratic terms dropped
+    Storage storage = Storage::double_precision;
+    double max_mach = 0.2;  ///< a step that goes beyond it ends the run, > 0
+    int threads = 0;        ///< of the fluid's loops; 0: as OpenMP decides
+};
+
+inline constexpr double kMinTau = 0.505;  ///< below, no flow of interest was found stable
+inline constexpr double kMaxTau = 20.0;   ///< above, the slip of first order in the Knudsen number is no longer small
+inline constexpr double kMinRadiusInCells = 2.0;
+
+}  // namespace lbm

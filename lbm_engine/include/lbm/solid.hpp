@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace lbm {
+
+using Vec3 = std::array<double, 3>;
+using Mat3 = std::array<Vec3, 3>;
+
+/**
+ * A rigid sphere in the fluid, as the caller knows it at the start of a fluid step. SI units.
+ *
+ * A finite `mass` (with its `inertia`) says that the solid answers to its load: the load is then passed on with the
+ * relaxation that keeps light particles stable. Infinite values say that the motion is prescribed (or none).
+ */
+struct Solid {
+    std::int64_t id = 0;      ///< the caller's key; unique among the solids of one fluid
+    double radius = 0;        ///< [m], at least two cells
+    Vec3 position{};          ///< of the centre [m]; need not be wrapped in periodic directions
+    Vec3 velocity{};          ///< of the centre [m/s]
+    Vec3 angular_velocity{};  ///< [rad/s]
+    double mass = std::numeric_limits<double>::infinity();     ///< [kg], > 0
+    double inertia = std::numeric_limits<double>::infinity();  ///< moment about the centre [kg m2], > 0
+};
+
+/**
+ * What the fluid does to one solid, as seen from outside it: the inertia of the fluid that fills the solid on the
+ * lattice is accounted for, so that m dV/dt = force + (weight and contacts), with no added mass.
+ *
+ * `force` contains buoyancy, - rho_f V gravity, and the drive's mean pressure gradient, + rho_f V acceleration, so that
+ * the loads in a periodic bed at rest add up to rho_f * acceleration * (volume of the box).
+ */
+struct SolidLoad {
+    Vec3 force{};      ///< [N]
+    Vec3 torque{};     ///< about the solid's centre [N m]
+    Mat3 stresslet{};  ///< symmetric, traceless first moment of the surface traction [N m]
+};
+
+}  // namespace lbm

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "fields/populations.hpp"
+#include "lbm/fluid_config.hpp"
+
+#include <vector>
+
+namespace lbm {
+
+/**
+ * What enters the box through its faces, edges and corners.
+ *
+ * In the AA pattern every link that leaves the box is one ghost slot, and its partner is one slot inside: the same population on the far side where the
+ * box is periodic, the reflected one at a wall (half-way bounce-back, with 6 w rho_0 c.u_wall for a moving wall). The
+ * ghosts are filled before a step of odd parity reads them, and drained after it wrote them; no ghost is ever the source of another, so order does not matter.
+ *
+ * Where a link crosses several walls at once (edges, corners), the wall velocity is the mean of theirs.
+ * @see Ladd (1994), J. Fluid Mech. 271, 285
+ */
+class Faces {
+public:
+    /// @param conditions  in lattice units; both faces of a periodic pair periodic
+    Faces(const Layout& layout, const std::array<FaceCondition, 6>& conditions);
+
+    /// Ghost <- partner. To be called when parity has become odd.
+    template <class T>
+    void fill(T* f) const;
+
+    /// Partner <- ghost. To be called when parity has become even.
+    template <class T>
+    void drain(T* f) const;
+
+private:
+    /// A block of links of one direction: slots ghost + d.stride and partner + d.stride, 0 <= d < extent.
+    struct Links {
+        Layout::Index ghost, partner;
+        std::array<int, 3> extent;
+        double gain;  ///< what a moving wall adds
+    };
+    template <class T, class Move>
+    void for_links(T* f, Move move) const;
+
+    std::array<Layout::Index, 3> stride_;
+    std::vector<Links> links_;
+};
+
+}  // namespace lbm

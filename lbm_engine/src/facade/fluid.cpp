@@ -1,0 +1,28 @@
+#include "lbm/fluid.hpp"
+
+#include "facade/implementation.hpp"
+
+namespace lbm {
+
+Fluid::Fluid(const FluidConfig& config) : implementation_(std::make_unique<Implementation>(config)) {}
+Fluid::~Fluid() = default;
+Fluid::Fluid(Fluid&&) noexcept = default;
+Fluid& Fluid::operator=(Fluid&&) noexcept = default;
+
+const FluidConfig& Fluid::config() const noexcept { return implementation_->config; }
+void Fluid::place_solids(const std::vector<Solid>& solids) { implementation_->place(solids); }
+void Fluid::step() { implementation_->step(); }
+const std::vector<SolidLoad>& Fluid::loads() const noexcept { return implementation_->loads; }
+double Fluid::dt() const noexcept { return implementation_->dt; }
+double Fluid::time() const noexcept { return static_cast<double>(steps()) * dt(); }
+std::int64_t Fluid::steps() const noexcept { return implementation_->steps; }
+double Fluid::max_mach() const noexcept { return std::sqrt(implementation_->max_speed2) / kSpeedOfSound; }
+StepTimes Fluid::times() const noexcept { return implementation_->times; }
+
+std::size_t Fluid::memory_bytes() const noexcept
+{
+    return std::visit([](const auto& f) { return f.memory.bytes(); }, implementation_->populations) +
+           implementation_->map.memory_bytes();
+}
+
+}  // namespace lbm

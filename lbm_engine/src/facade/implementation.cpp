@@ -1,0 +1,222 @@
+#include "facade/implementation.hpp"
+
+#include "facade/validate.hpp"
+#include "lattice/message.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace lbm {
+namespace {
+
+double magic_parameter(const FluidConfig& c)
+{
+    return std::isnan(c.magic_parameter) ? kLambdaLowNoise : c.magic_parameter;
+}
+
+std::array<FaceCondition, 6> lattice_faces(const FluidConfig& c, const Units& units)
+{
+    auto faces = c.faces;
+    for (FaceCondition& face : faces) face.velocity = (1 / units.velocity) * face.velocity;
+    return faces;
+}
+
+std::array<bool, 3> periodic_axes(const FluidConfig& c)
+{
+    std::array<bool, 3> periodic;
+    for (int d = 0; d < 3; ++d) periodic[d] = c.faces[2 * d].type == FaceType::periodic;
+    return periodic;
+}
+
+FluidConfig validated(const FluidConfig& config)
+{
+    validate(config);
+    return config;
+}
+
+std::variant<Populations<double>, Populations<float>> make_populations(const FluidConfig& c)
+{
+    const ThreadCount threads(c.threads);
+    if (c.storage == Storage::single_precision) return Populations<float>(c.cells);
+    return Populations<double>(c.cells);
+}
+
+class Stopwatch {
+public:
+    /// Seconds since construction or the last lap.
+    double lap()
+    {
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+        return seconds;
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+Fluid::Implementation::Implementation(const FluidConfig& c)
+    : config(validated(c))
+    , dt(fluid_time_step(c.tau, c.dx, c.viscosity / c.density))
+    , units(c.dx, dt, c.density)
+    , collision{TrtRates(c.tau, magic_parameter(c)), {}, Weighting(magic_parameter(c)).low_noise}
+    , populations(make_populations(c))
+    , faces(std::visit([](const auto& f) { return f.layout; }, populations), lattice_faces(c, units))
+    , map(c.cells, periodic_axes(c), Weighting(magic_parameter(c)))
+{
+    for (int d = 0; d < 3; ++d) collision.body_force[d] = c.acceleration[d] / units.acceleration;
+}
+
+LatticeSphere Fluid::Implementation::in_lattice_units(const Solid& solid) const
+{
+    LatticeSphere sphere;
+    sphere.radius = solid.radius / units.length;
+    sphere.velocity = (1 / units.velocity) * solid.velocity;
+    sphere.angular_velocity = units.time * solid.angular_velocity;
+    for (int d = 0; d < 3; ++d) {
+        double x = (solid.position[d] - config.lower[d]) / units.length;
+        if (config.faces[2 * d].type == FaceType::periodic) x -= config.cells[d] * std::floor(x / config.cells[d]);
+        // Beyond the reach of the lattice nothing is mapped; the distance itself must stay countable.
+        sphere.centre[d] = std::clamp(x, -1e6 - sphere.radius, 1e6 + config.cells[d] + sphere.radius);
+    }
+    return sphere;
+}
+
+void Fluid::Implementation::place(const std::vector<Solid>& now)
+{
+    const ThreadCount threads(config.threads);
+    Stopwatch watch;
+    const auto count = static_cast<std::ptrdiff_t>(now.size());
+    bool same_ids = now.size() == solids.size();
+    for (std::ptrdiff_t s = 0; same_ids && s < count; ++s)
+        same_ids = now[s].id == solids[s].id && now[s].radius == solids[s].radius;
+    validate(config, now);
+    if (!same_ids) require_unique_ids(now);
+
+    std::vector<LatticeSphere> spheres(now.size());
+#pragma omp parallel for schedule(static) if (count > 256)
+    for (std::ptrdiff_t s = 0; s < count; ++s) spheres[s] = in_lattice_units(now[s]);
+    std::vector<int> previous(now.size());
+    bool any_new = false;
+    for (std::ptrdiff_t s = 0; s < count; ++s) {
+        if (same_ids) {
+            previous[s] = static_cast<int>(s);
+            continue;
+        }
+        const auto found = index_of_id.find(now[s].id);
+        const bool known = found != index_of_id.end() && solids[found->second].radius == now[s].radius;
+        previous[s] = known ? found->second : -1;
+        any_new = any_new || !known;
+    }
+    map.update(spheres, previous);
+    if (!same_ids) {
+        std::vector<LoadLedger> kept(now.size());
+        if (any_new) std::visit([&](const auto& f) { sum_inside(f, map); }, populations);
+        index_of_id.clear();
+        for (std::ptrdiff_t s = 0; s < count; ++s) {
+            index_of_id.emplace(now[s].id, static_cast<int>(s));
+            if (previous[s] >= 0) {
+                kept[s] = ledgers[previous[s]];
+            } else {
+                const SolidSums sums = map.sums(s);
+                kept[s].momentum = sums.momentum;
+                kept[s].angular_momentum = sums.angular_momentum;
+            }
+        }
+        ledgers = std::move(kept);
+        loads.assign(now.size(), SolidLoad{});
+    }
+    solids = now;
+    times.map += watch.lap();
+}
+
+void Fluid::Implementation::step()
+{
+    const ThreadCount threads(config.threads);
+    Stopwatch watch_time;
+    std::visit(
+        [&](auto& f) {
+            const SpeedWatch speeds = sweep(f, collision, config.inertia, map);
+            times.collide_stream += watch_time.lap();
+            if (f.odd) faces.fill(f.data());
+            else faces.drain(f.data());
+            times.exchange += watch_time.lap();
+            ++steps;
+            watch(speeds);
+            max_speed2 = speeds.max2;
+        },
+        populations);
+    watch_time.lap();
+    settle_loads();
+    times.loads += watch_time.lap();
+}
+
+void Fluid::Implementation::settle_loads()
+{
+    const auto count = static_cast<std::ptrdiff_t>(solids.size());
+#pragma omp parallel for schedule(static) if (count > 8)
+    for (std::ptrdiff_t s = 0; s < count; ++s) {
+        const SolidSums sums = map.sums(s);
+        const double share = load_share(solids[s].mass / units.mass, sums.coupling);
+        const double spin_share = load_share(solids[s].inertia / units.inertia, sums.spin_coupling);
+        const auto load =
+            ledgers[s].settle(sums.force, sums.torque(), sums.momentum, sums.angular_momentum, share, spin_share);
+        loads[s] = load_in_si(s, load, sums);
+    }
+}
+
+SolidLoad Fluid::Implementation::load_in_si(std::size_t s, const LoadLedger::Load& load, const SolidSums& sums) const
+{
+    SolidLoad si;
+    si.force = units.force * load.force;
+    si.torque = units.torque * load.torque;
+    // The pressure gradients that the lattice does not carry: hydrostatic, and the drive's.
+    si.force += (map.volume(s) * units.mass) * (config.acceleration - config.gravity);
+    const Mat3& m = sums.first_moment;
+    const double third = (m[0][0] + m[1][1] + m[2][2]) / 3;
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+            si.stresslet[a][b] = -units.torque * (0.5 * (m[a][b] + m[b][a]) - (a == b ? third : 0));
+    return si;
+}
+
+void Fluid::Implementation::watch(const SpeedWatch& speeds) const
+{
+    const double limit = config.max_mach * kSpeedOfSound;
+    const bool diverged = !std::isfinite(speeds.sum2);
+    if (!diverged && speeds.max2 <= limit * limit) return;
+
+    std::ptrdiff_t where = -1;
+    double worst = -1;
+    std::visit(
+        [&](const auto& f) {
+            const auto [nx, ny, nz] = f.layout.n;
+            for (std::ptrdiff_t cell = 0; cell < static_cast<std::ptrdiff_t>(nx) * ny * nz; ++cell) {
+                double p[D3Q19::Q];
+                f.outgoing(static_cast<int>(cell % nx), static_cast<int>(cell / nx % ny),
+                           static_cast<int>(cell / nx / ny), p);
+                const Moments<double> m = moments(p);
+                double speed2 = (m.j[0] * m.j[0] + m.j[1] * m.j[1] + m.j[2] * m.j[2]) / ((1 + m.drho) * (1 + m.drho));
+                if (!std::isfinite(speed2)) speed2 = std::numeric_limits<double>::max();
+                if (speed2 > worst) {
+                    worst = speed2;
+                    where = cell;
+                }
+            }
+        },
+        populations);
+    const auto [nx, ny, nz] = config.cells;
+    const auto place = message("at step ", steps, " (t = ", steps * dt, " s), cell (", where % nx, ", ",
+                               where / nx % ny, ", ", where / nx / ny, ")");
+    if (diverged)
+        throw RunError(message("the fluid diverged ", place,
+                               ": use a smaller time step of the fluid or more cells, or keep tau above 0.52"));
+    throw RunError(message("Mach number ", std::sqrt(speeds.max2) / kSpeedOfSound, " ", place, " is above the limit ",
+                           config.max_mach, ": the speed of ", std::sqrt(speeds.max2) * units.velocity,
+                           " m/s needs a fluid step (now ", dt, " s) smaller by that ratio"));
+}
+
+}  // namespace lbm

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "lbm/fluid.hpp"
+
+#include "domain/faces.hpp"
+#include "fields/sweep.hpp"
+#include "lattice/units.hpp"
+#include "physics/load_ledger.hpp"
+
+#include <omp.h>
+
+#include <unordered_map>
+#include <variant>
+
+namespace lbm {
+
+inline constexpr double kSpeedOfSound = 0.57735026918962576451;  // 1 / sqrt(3), lattice units
+
+/// Runs the loops below with the number of threads that the configuration asks for.
+class ThreadCount {
+public:
+    explicit ThreadCount(int threads) : before_(omp_get_max_threads())
+    {
+        if (threads > 0) omp_set_num_threads(threads);
+    }
+    ~ThreadCount() { omp_set_num_threads(before_); }
+    ThreadCount(const ThreadCount&) = delete;
+    ThreadCount& operator=(const ThreadCount&) = delete;
+
+private:
+    int before_;
+};
+
+struct Fluid::Implementation {
+    FluidConfig config;
+    double dt;
+    Units units;
+    CollisionParameters collision;
+    std::variant<Populations<double>, Populations<float>> populations;
+    Faces faces;
+    SolidMap map;
+    std::int64_t steps = 0;
+
+    std::vector<Solid> solids;                          // as last placed
+    std::vector<LoadLedger> ledgers;                    // in the same order
+    std::unordered_map<std::int64_t, int> index_of_id;  // into both
+    std::vector<SolidLoad> loads;
+    double max_speed2 = 0;
+    StepTimes times;
+
+    explicit Implementation(const FluidConfig& c);
+
+    void place(const std::vector<Solid>& now);
+    void step();
+    void settle_loads();
+    SolidLoad load_in_si(std::size_t s, const LoadLedger::Load& load, const SolidSums& sums) const;
+    void watch(const SpeedWatch& speeds) const;
+    LatticeSphere in_lattice_units(const Solid& solid) const;
+
+    template <class Body>
+    void for_cells(Body body) const
+    {
+        const ThreadCount threads(config.threads);
+        std::visit([&](const auto& f) { lbm::for_cells(f, collision, config.inertia, map, body); }, populations);
+    }
+
+    /// Sum over all cells of value(CellState), row by row, so that it does not depend on the number of threads.
+    template <class Value, class Evaluate>
+    Value sum_cells(Evaluate evaluate) const
+    {
+        std::vector<Value> rows(static_cast<std::size_t>(config.cells[1]) * config.cells[2], Value{});
+        for_cells([&](std::size_t row, int, const CellState& cell) { rows[row] += evaluate(cell); });
+        Value sum{};
+        for (const Value& row : rows) sum += row;
+        return sum;
+    }
+    CellState cell_at(int x, int y, int z) const;
+    double cell_count() const { return double(config.cells[0]) * config.cells[1] * config.cells[2]; }
+};
+
+}  // namespace lbm

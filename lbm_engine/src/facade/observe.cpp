@@ -1,0 +1,159 @@
+#include "facade/implementation.hpp"
+#include "lattice/message.hpp"
+#include "output/vtk.hpp"
+
+#include <algorithm>
+
+namespace lbm {
+Vec3 Fluid::average_velocity() const
+{
+    const auto& fluid = *implementation_;
+    const Vec3 sum = fluid.sum_cells<Vec3>([](const CellState& cell) { return cell.u; });
+    return (fluid.units.velocity / fluid.cell_count()) * sum;
+}
+
+double Fluid::permeability() const
+{
+    const Vec3& a = config().acceleration;
+    return config().viscosity / config().density * dot(average_velocity(), a) / dot(a, a);
+}
+
+double Fluid::mean_density_deviation() const
+{
+    const auto& fluid = *implementation_;
+    return fluid.sum_cells<double>([](const CellState& cell) { return cell.drho; }) / fluid.cell_count();
+}
+
+double Fluid::total_mass() const
+{
+    const auto& fluid = *implementation_;
+    return fluid.units.mass * fluid.cell_count() * (1 + mean_density_deviation());
+}
+
+Vec3 Fluid::total_momentum() const
+{
+    const auto& fluid = *implementation_;
+    Vec3 sum = fluid.sum_cells<Vec3>([](const CellState& cell) { return cell.momentum; });
+    for (const LoadLedger& ledger : fluid.ledgers) sum += ledger.owed - ledger.momentum;
+    return fluid.units.momentum * sum;
+}
+
+double Fluid::kinetic_energy() const
+{
+    const auto& fluid = *implementation_;
+    return fluid.units.energy * fluid.sum_cells<double>([](const CellState& cell) {
+        return 0.5 * (1 - cell.epsilon) * (1 + cell.drho) * dot(cell.u, cell.u);
+    });
+}
+
+std::vector<double> Fluid::velocity_field() const
+{
+    const auto& fluid = *implementation_;
+    const std::size_t nx = config().cells[0];
+    std::vector<double> field(3 * static_cast<std::size_t>(fluid.cell_count()));
+    fluid.for_cells([&](std::size_t row, int x, const CellState& cell) {
+        for (int d = 0; d < 3; ++d) field[3 * (row * nx + x) + d] = fluid.units.velocity * cell.u[d];
+    });
+    return field;
+}
+
+std::vector<double> Fluid::pressure_field() const
+{
+    const auto& fluid = *implementation_;
+    const std::size_t nx = config().cells[0];
+    std::vector<double> field(static_cast<std::size_t>(fluid.cell_count()));
+    fluid.for_cells([&](std::size_t row, int x, const CellState& cell) {
+        field[row * nx + x] = fluid.units.pressure * kSpeedOfSound * kSpeedOfSound * cell.drho;
+    });
+    return field;
+}
+
+std::vector<double> Fluid::solid_fraction_field() const
+{
+    const auto& fluid = *implementation_;
+    const std::size_t nx = config().cells[0];
+    std::vector<double> field(static_cast<std::size_t>(fluid.cell_count()));
+    fluid.for_cells([&](std::size_t row, int x, const CellState& cell) { field[row * nx + x] = cell.epsilon; });
+    return field;
+}
+
+namespace {
+
+/// The eight cell centres around a position and their trilinear weights; beyond the last centre next to a wall, that of the wall's cell.
+struct Stencil {
+    int cell[3][2];
+    double weight[3][2];
+};
+
+Stencil stencil(const FluidConfig& c, const Vec3& position)
+{
+    Stencil s{};
+    for (int d = 0; d < 3; ++d) {
+        const int n = c.cells[d];
+        const double x = (position[d] - c.lower[d]) / c.dx;
+        if (!(x >= 0 && x <= n))
+            throw ConfigError(message("position ", position[d], " m along ", "xyz"[d], " is outside the box, ",
+                                      c.lower[d], " to ", c.lower[d] + n * c.dx, " m"));
+        const double left = std::floor(x - 0.5);
+        const bool periodic = c.faces[2 * d].type == FaceType::periodic;
+        for (int side = 0; side < 2; ++side) {
+            const int cell = static_cast<int>(left) + side;
+            s.cell[d][side] = periodic ? (cell + n) % n : std::clamp(cell, 0, n - 1);
+            s.weight[d][side] = side ? x - 0.5 - left : 1 - (x - 0.5 - left);
+        }
+    }
+    return s;
+}
+
+}  // namespace
+
+CellState Fluid::Implementation::cell_at(int x, int y, int z) const
+{
+    CellState found{};
+    const std::size_t wanted = static_cast<std::size_t>(z) * config.cells[1] + y;
+    std::visit(
+        [&](const auto& f) {
+            RowSaturation cells(config.cells[0]);
+            const auto take = [&](std::size_t, int i, const CellState& cell) {
+                if (i == x) found = cell;
+            };
+            for_cells_of_row(f, collision, config.inertia, map, wanted, cells, take);
+        },
+        populations);
+    return found;
+}
+
+/// Calls body(weight, cell) for the cells around a position.
+template <class Body>
+static void interpolate(const Stencil& s, Body body)
+{
+    for (int corner = 0; corner < 8; ++corner) {
+        const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
+        body(s.weight[0][i] * s.weight[1][j] * s.weight[2][k], s.cell[0][i], s.cell[1][j], s.cell[2][k]);
+    }
+}
+
+Vec3 Fluid::velocity_at(const Vec3& position) const
+{
+    Vec3 u{};
+    interpolate(stencil(config(), position),
+                [&](double weight, int x, int y, int z) { u += weight * implementation_->cell_at(x, y, z).u; });
+    return implementation_->units.velocity * u;
+}
+
+double Fluid::pressure_at(const Vec3& position) const
+{
+    double drho = 0;
+    interpolate(stencil(config(), position),
+                [&](double weight, int x, int y, int z) { drho += weight * implementation_->cell_at(x, y, z).drho; });
+    return implementation_->units.pressure * kSpeedOfSound * kSpeedOfSound * drho;
+}
+
+void Fluid::save_vtk(const std::string& path) const
+{
+    const auto u = velocity_field(), p = pressure_field(), epsilon = solid_fraction_field();
+    write_vti(path, config().cells, config().lower, config().dx,
+              {{"velocity", 3, &u}, {"pressure", 1, &p}, {"solidFraction", 1, &epsilon}});
+}
+
+}  // namespace lbm

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lbm {
+
+/// Cells side by side in a row that take the fluid path or the saturated path together.
+inline constexpr int kBlock = 8;
+
+/**
+ * One row of cells as the saturated collision sees it: what the solids say to the cells, and what the cells answer.
+ * One per thread; entries outside covered blocks are zero (input) or meaningless (answers).
+ */
+struct RowSaturation {
+    enum Column {
+        kEpsilon,
+        kEpsilonSum,
+        kStrength,
+        kUs,
+        kForce = kUs + 3,
+        kMomentum = kForce + 3,
+        kWeight = kMomentum + 3,
+        kColumns
+    };
+
+    explicit RowSaturation(int nx)
+        : stride(static_cast<std::size_t>((nx + kBlock - 1) / kBlock) * kBlock)
+        , values(kColumns * stride, 0.0)
+        , covered(stride / kBlock, 0)
+    {
+    }
+    double* column(int c) noexcept { return values.data() + static_cast<std::size_t>(c) * stride; }
+    const double* column(int c) const noexcept { return values.data() + static_cast<std::size_t>(c) * stride; }
+
+    std::size_t stride;
+    std::vector<double> values;
+    std::vector<std::uint8_t> covered;  ///< per block
+};
+
+}  // namespace lbm

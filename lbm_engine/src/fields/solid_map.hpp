@@ -1,0 +1,103 @@
+#pragma once
+
+#include "fields/row_saturation.hpp"
+#include "lattice/vec3.hpp"
+#include "physics/rates.hpp"
+#include "physics/sphere_fraction.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace lbm {
+
+/// A sphere in lattice units, its centre wrapped into the box in periodic directions.
+struct LatticeSphere {
+    double radius = 0;
+    Vec3 centre{};  ///< cell i reaches from i to i + 1
+    Vec3 velocity{}, angular_velocity{};
+};
+
+/// Sums of one solid over its cells in one step, in lattice units; moments about its centre.
+struct SolidSums {
+    Vec3 force{};              ///< sum F_s: of the solid on the fluid
+    Mat3 first_moment{};       ///< sum r F_s, [position][force]
+    Vec3 momentum{};           ///< P_in = sum eps j_post
+    Vec3 angular_momentum{};   ///< L_in = sum eps r x j_post
+    double coupling = 0;       ///< B = sum (1 - eps) kk rho
+    double spin_coupling = 0;  ///< mean over axes of sum (1 - eps) kk rho (r^2 - (r.n)^2)
+
+    Vec3 torque() const  ///< sum r x F_s
+    {
+        const Mat3& m = first_moment;
+        return {m[1][2] - m[2][1], m[2][0] - m[0][2], m[0][1] - m[1][0]};
+    }
+};
+
+/**
+ * Which cells the solids cover, and how much: for every solid the spans of its rows with exact fractions, and for every
+ * row of the lattice the spans that lie in it.
+ *
+ * Only solids that moved are evaluated again. Sums are kept per span and added up span by span, so that the result does not depend on
+ * which thread swept which row.
+ */
+class SolidMap {
+public:
+    /// @param periodic  for each axis
+    SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const Weighting& weighting);
+
+    std::size_t size() const noexcept { return solids_.size(); }
+    const LatticeSphere& sphere(std::size_t s) const noexcept { return solids_[s].sphere; }
+    double volume(std::size_t s) const noexcept { return solids_[s].volume; }  ///< inside the box
+
+    /**
+     * The solids that are there now.
+     * @param previous  for each of them its index in the map as it stands, or -1
+     */
+    void update(const std::vector<LatticeSphere>& spheres, const std::vector<int>& previous);
+
+    bool covers(std::size_t row) const noexcept { return !solids_.empty() && row_begin_[row] != row_begin_[row + 1]; }
+
+    /// Writes what the solids say to the cells of a row, and marks the covered blocks.
+    void saturate(std::size_t row, RowSaturation& cells) const;
+    /// Reads the cells' answers into the spans' sums, and clears the row for the next one.
+    void collect(std::size_t row, RowSaturation& cells);
+    void clear(RowSaturation& cells) const;
+
+    SolidSums sums(std::size_t solid) const;
+
+    std::size_t memory_bytes() const;
+
+private:
+    struct SpanSums {
+        double F[3], xF[3], P[3], xP[2], b, bxx;
+    };
+    struct Span {
+        std::int32_t x0, n;       // not wrapped
+        std::uint32_t fractions;  // offset
+    };
+    struct MappedSolid {
+        LatticeSphere sphere;
+        double k = 0, volume = 0;
+        int y0 = 0, ny = 0, z0 = 0, nz = 0;  // rows, not wrapped
+        std::vector<Span> spans;             // ny * nz
+        std::vector<double> fractions;
+        std::vector<SpanSums> sums;
+    };
+    struct RowEntry {
+        std::int32_t solid, span;
+    };
+
+    void map(MappedSolid& solid, SphereFraction& fraction) const;
+    void list_rows();
+    template <class Body>
+    void for_cells(const Span& span, Body body) const;
+
+    std::array<int, 3> n_;
+    std::array<bool, 3> periodic_;
+    Weighting weighting_;
+    std::vector<MappedSolid> solids_;
+    std::vector<std::uint32_t> row_begin_;  // (ny * nz + 1)
+    std::vector<RowEntry> entries_;
+};
+
+}  // namespace lbm

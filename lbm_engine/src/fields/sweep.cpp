@@ -1,0 +1,69 @@
+#include "fields/sweep.hpp"
+
+#include <algorithm>
+
+namespace lbm {
+
+template <class T>
+SpeedWatch sweep(Populations<T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids)
+{
+    static const SweepRows<T> variants = sweep_rows<T>();
+    const SweepRow<T> sweep_row = inertia ? variants.inertia : variants.stokes;
+    const Layout& layout = populations.layout;
+    const int nx = layout.n[0], ny = layout.n[1], nz = layout.n[2];
+    double max2 = 0, sum2 = 0;
+#pragma omp parallel reduction(max : max2) reduction(+ : sum2)
+    {
+        RowSaturation cells(nx);
+        SpeedWatch watch;
+#pragma omp for schedule(static)
+        for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(ny) * nz; ++row) {
+            const int y = static_cast<int>(row % ny), z = static_cast<int>(row / ny);
+            Layout::Index slot[D3Q19::Q];
+            for (int i = 0; i < D3Q19::Q; ++i) slot[i] = layout.incoming(i, 0, y, z, populations.odd);
+            if (solids.covers(row)) {
+                solids.saturate(row, cells);
+                sweep_row(populations.data(), slot, nx, p, &cells, watch);
+                solids.collect(row, cells);
+            } else {
+                sweep_row(populations.data(), slot, nx, p, nullptr, watch);
+            }
+        }
+        max2 = watch.max2;
+        sum2 = watch.sum2;
+    }
+    populations.odd = !populations.odd;
+    return {max2, sum2};
+}
+
+template <class T>
+void sum_inside(const Populations<T>& populations, SolidMap& solids)
+{
+    const int nx = populations.layout.n[0], ny = populations.layout.n[1], nz = populations.layout.n[2];
+#pragma omp parallel
+    {
+        RowSaturation cells(nx);
+#pragma omp for schedule(static)
+        for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(ny) * nz; ++row) {
+            if (!solids.covers(row)) continue;
+            solids.saturate(row, cells);
+            for (int c = RowSaturation::kForce; c < RowSaturation::kColumns; ++c)
+                std::fill_n(cells.column(c), cells.stride, 0.0);
+            for (int x = 0; x < nx; ++x) {
+                if (!cells.covered[x / kBlock]) continue;
+                double f[D3Q19::Q];
+                populations.outgoing(x, static_cast<int>(row % ny), static_cast<int>(row / ny), f);
+                const Moments<double> m = moments(f);
+                for (int d = 0; d < 3; ++d) cells.column(RowSaturation::kMomentum + d)[x] = m.j[d];
+            }
+            solids.collect(row, cells);
+        }
+    }
+}
+
+template SpeedWatch sweep(Populations<double>&, const CollisionParameters&, bool, SolidMap&);
+template SpeedWatch sweep(Populations<float>&, const CollisionParameters&, bool, SolidMap&);
+template void sum_inside(const Populations<double>&, SolidMap&);
+template void sum_inside(const Populations<float>&, SolidMap&);
+
+}  // namespace lbm

@@ -1,0 +1,3 @@
+#define LBM_ISA avx2
+#define LBM_LANES 4
+#include "fields/sweep_row.ipp"

@@ -1,0 +1,3 @@
+#define LBM_ISA avx512
+#define LBM_LANES 8
+#include "fields/sweep_row.ipp"

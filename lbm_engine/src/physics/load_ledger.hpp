@@ -1,0 +1,52 @@
+#pragma once
+
+#include "lattice/vec3.hpp"
+
+namespace lbm {
+
+/**
+ * The momentum bookkeeping of one solid (docs/physics.md, "Loads"), in lattice units.
+ *
+ * - sum F_s contains the inertia of the fluid inside the solid. What the solid gains from the fluid outside is, exactly,
+ *
+ *     L^n = - sum F_s^n + P_in^n - P_in^(n-1),   P_in = sum eps j_post,
+ *
+ * and the same for moments. The load is passed on through a virtual mass B = sum (1 - eps) kk rho, which keeps light
+ * solids stable: of everything taken from the fluid and not passed on yet, `owed`, a share m / (m + B) is passed on in each step. Nothing is lost: what was
+ * taken equals what was passed on plus what is owed.
+ */
+struct LoadLedger {
+    Vec3 momentum{}, angular_momentum{};  ///< P_in, L_in after the last step
+    Vec3 owed{}, owed_moment{};
+
+    struct Load {
+        Vec3 force, torque;
+    };
+
+    /**
+     * Books one step.
+     * @param force, torque               sum F_s, sum r x F_s
+     * @param inside, angular_inside      P_in, L_in after this step
+     * @param share, spin_share           m / (m + B), I / (I + B_w); 1 for a solid whose motion is prescribed
+     */
+    Load settle(const Vec3& force, const Vec3& torque, const Vec3& inside, const Vec3& angular_inside, double share,
+                double spin_share)
+    {
+        owed += (inside - momentum) - force;
+        owed_moment += (angular_inside - angular_momentum) - torque;
+        momentum = inside;
+        angular_momentum = angular_inside;
+        const Load load{share * owed, spin_share * owed_moment};
+        owed -= load.force;
+        owed_moment -= load.torque;
+        return load;
+    }
+};
+
+/// m / (m + B); 1 for infinite m.
+[[nodiscard]] inline double load_share(double mass, double coupling)
+{
+    return std::isinf(mass) ? 1.0 : mass / (mass + coupling);
+}
+
+}  // namespace lbm

@@ -1,0 +1,56 @@
+#pragma once
+
+namespace lbm {
+
+/**
+ * Relaxation of the two-relaxation-time (TRT) collision, in lattice units.
+ *
+ *     Lp = tau - 1/2 = 3 nu,   Lm = lambda / Lp,   omega+- = 1 / (L+- + 1/2)
+ *
+ * @see Ginzburg, Verhaeghe & d'Humieres (2008), Commun. Comput. Phys. 3, 427
+ */
+struct TrtRates {
+    double Lp, Lm;
+    double omega_plus;   ///< of the even part of f; sets the viscosity
+    double omega_minus;  ///< of the odd part of f; follows from lambda
+
+    constexpr TrtRates(double tau, double lambda)
+        : Lp(tau - 0.5)
+        , Lm(lambda / Lp)
+        , omega_plus(1 / tau)
+        , omega_minus(1 / (Lm + 0.5))
+    {
+    }
+};
+
+/// The magic parameter of the low-noise parameter set (LN).
+inline constexpr double kLambdaLowNoise = 0.125;
+
+/**
+ * The weighting of partially saturated cells: two parameter sets, both exact in tau.
+ *
+ *     LN  (lambda = 1/8)   lam(eps) = (1 - eps) / (1 + 3 eps) + eps / 20,   k = 2.04 + 4.4 / R
+ *     R   (any lambda)     lam(eps) = 1,                                    k = 1.93 + 9.05 lambda + (1.9 + 17 lambda) / R
+ *
+ * lam scales Lm in a cut cell; k is the strength of the solid force for a surface of radius of curvature R cells.
+ * Fitted for D3Q19 with exact solid fractions; docs/physics.md has the derivation and the measurements.
+ */
+struct Weighting {
+    bool low_noise;
+    double k_flat, k_curved;
+
+    constexpr explicit Weighting(double lambda)
+        : low_noise(lambda == kLambdaLowNoise)
+        , k_flat(low_noise ? 2.04 : 1.93 + 9.05 * lambda)
+        , k_curved(low_noise ? 4.4 : 1.9 + 17 * lambda)
+    {
+    }
+
+    /// @param radius_of_curvature  [cells], > 0; infinity for a flat surface
+    [[nodiscard]] constexpr double k(double radius_of_curvature) const
+    {
+        return k_flat + k_curved / radius_of_curvature;
+    }
+};
+
+}  // namespace lbm

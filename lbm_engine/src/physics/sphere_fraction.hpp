@@ -1,0 +1,42 @@
+#pragma once
+
+#include "lbm/solid.hpp"
+
+#include <array>
+#include <vector>
+
+namespace lbm {
+
+/**
+ * Exact solid fractions of the unit cells that a sphere touches.
+ *
+ * With H(a, b, c) the volume that the sphere, centred at the origin, shares with the box [0,a]x[0,b]x[0,c] (odd in each
+ * argument), the volume in any cell is the mixed difference of H over its eight corners. H is a b c where the corner lies inside the sphere; outside
+ *
+ *     H = G2(0,0) - G2(a,0) - G2(b,0) - G2(c,0) + G2(a,b) + G2(b,c) + G2(a,c)
+ *
+ * with G2(a, b) the volume of the part of the sphere with x > a, y > b, z > 0, known in closed form. So a sphere costs three tables of G2 over pairs of
+ * lattice planes and a few additions per corner. The error is round-off, of the order of 1e-16 R^3.
+ */
+class SphereFraction {
+public:
+    /**
+     * Evaluates the fractions. Buffers are kept from call to call.
+     * @param centre  in cells; cell i reaches from i to i + 1
+     * @param radius  in cells, > 0
+     */
+    void evaluate(const Vec3& centre, double radius);
+
+    const std::array<int, 3>& first() const noexcept { return first_; }  ///< lowest cell of the bounding box
+    const std::array<int, 3>& count() const noexcept { return count_; }  ///< its cells
+    const double* row(int j, int k) const noexcept;  ///< fractions of count()[0] cells in row (j, k)
+
+private:
+    std::array<int, 3> first_{}, count_{};
+    std::array<std::vector<double>, 3> plane_;  // planes relative to the centre, clamped to +-R
+    std::array<std::vector<double>, 3> g1_;     // G2(|a|, 0)
+    std::array<std::vector<double>, 3> g2_;     // G2 of planes (x,y), (y,z), (x,z)
+    std::vector<double> corner_, fraction_;
+};
+
+}  // namespace lbm

@@ -1,0 +1,186 @@
+#pragma once
+
+#include "lattice/d3q19.hpp"
+#include "lattice/vec3.hpp"
+#include "lbm/fluid_config.hpp"
+#include "physics/sphere_fraction.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace lbm::test {
+
+/**
+ * The plain twin of the engine: two grids, one cell after the other, formulas as on the physics page. Lattice units. It is
+ * checkable by hand and slow; the engine must agree with it.
+ */
+class ReferenceFluid {
+public:
+    struct Load {
+        Vec3 force{}, torque{}, inside{}, angular_inside{};
+        double coupling = 0;
+    };
+
+    /// The configuration must be in lattice units: dx = 1, density = 1, viscosity = (tau - 1/2) / 3.
+    explicit ReferenceFluid(const FluidConfig& c)
+        : c_(c)
+        , f_(19, std::vector<double>(static_cast<std::size_t>(c.cells[0]) * c.cells[1] * c.cells[2], 0.0))
+        , next_(f_)
+        , Lambda_(std::isnan(c.magic_parameter) ? 0.125 : c.magic_parameter)
+    {
+    }
+
+    std::vector<double>& population(int i) { return f_[i]; }
+    const std::vector<Load>& loads() const { return loads_; }
+
+    void step(const std::vector<Solid>& solids)
+    {
+        const auto [nx, ny, nz] = c_.cells;
+        map(solids);
+        loads_.assign(solids.size(), {});
+        for (int z = 0; z < nz; ++z)
+            for (int y = 0; y < ny; ++y)
+                for (int x = 0; x < nx; ++x) collide_and_push(x, y, z, solids);
+        f_.swap(next_);
+    }
+
+    std::size_t cell(int x, int y, int z) const
+    {
+        return (static_cast<std::size_t>(z) * c_.cells[1] + y) * c_.cells[0] + x;
+    }
+
+private:
+    struct Share {
+        std::size_t solid;
+        double epsilon;
+        Vec3 r;  ///< from the solid's centre
+    };
+
+    void map(const std::vector<Solid>& solids)
+    {
+        shares_.assign(f_[0].size(), {});
+        for (std::size_t s = 0; s < solids.size(); ++s) {
+            SphereFraction fraction;
+            fraction.evaluate(solids[s].position, solids[s].radius);
+            const auto first = fraction.first(), count = fraction.count();
+            for (int k = 0; k < count[2]; ++k)
+                for (int j = 0; j < count[1]; ++j)
+                    for (int i = 0; i < count[0]; ++i) {
+                        const double epsilon = fraction.row(j, k)[i];
+                        if (epsilon == 0) continue;
+                        std::array<int, 3> at{first[0] + i, first[1] + j, first[2] + k};
+                        Vec3 r{};
+                        bool inside = true;
+                        for (int d = 0; d < 3; ++d) {
+                            r[d] = at[d] + 0.5 - solids[s].position[d];
+                            if (c_.faces[2 * d].type == FaceType::periodic)
+                                at[d] = (at[d] % c_.cells[d] + c_.cells[d]) % c_.cells[d];
+                            else inside = inside && at[d] >= 0 && at[d] < c_.cells[d];
+                        }
+                        if (inside) shares_[cell(at[0], at[1], at[2])].push_back({s, epsilon, r});
+                    }
+        }
+    }
+
+    void collide_and_push(int x, int y, int z, const std::vector<Solid>& solids)
+    {
+        const std::size_t here = cell(x, y, z);
+        const double Lp = c_.tau - 0.5, Lm = Lambda_ / Lp;
+        double sum = 0, k_eps = 0;
+        Vec3 u_s{};
+        for (const Share& share : shares_[here]) {
+            const Solid& solid = solids[share.solid];
+            const Vec3 &W = solid.angular_velocity, &r = share.r;
+            const Vec3 spin{W[1] * r[2] - W[2] * r[1], W[2] * r[0] - W[0] * r[2], W[0] * r[1] - W[1] * r[0]};
+            const double R = solid.radius;
+            const double k = Lambda_ == 0.125 ? 2.04 + 4.4 / R : 1.93 + 9.05 * Lambda_ + (1.9 + 17 * Lambda_) / R;
+            sum += share.epsilon;
+            k_eps += k * share.epsilon;
+            u_s += share.epsilon * (solid.velocity + spin);
+        }
+        const double eps = std::min(sum, 1.0), m = 1 - eps;
+        if (sum > 0) {
+            k_eps *= eps / sum;
+            u_s = (1 / sum) * u_s;
+        }
+        const double lam = Lambda_ == 0.125 ? (1 - eps) / (1 + 3 * eps) + 0.05 * eps : 1;
+        const double kk = k_eps * Lp / (m + k_eps * Lp / 2);
+        const double omega_plus = 1 / c_.tau, omega_minus = 1 / (Lm * lam + 0.5);
+
+        double rho = 1;
+        Vec3 j{};
+        for (int i = 0; i < 19; ++i) {
+            rho += f_[i][here];
+            for (int d = 0; d < 3; ++d) j[d] += D3Q19::c[i][d] * f_[i][here];
+        }
+        const double drho = rho - 1;
+        if (!c_.inertia) rho = 1;
+        const Vec3 mF = m * c_.acceleration;
+        const Vec3 u = (1 / rho) * (j + 0.5 * mF);
+        const Vec3 F_s = (kk * rho) * (u_s - u);
+        const Vec3 u_phys = u + (0.5 / rho) * F_s;
+        const Vec3 F_t = mF + F_s;
+
+        double post[19];
+        Vec3 j_post{};
+        for (int i = 0; i < 19; ++i) {
+            const int o = D3Q19::opposite(i);
+            const Vec3 c{double(D3Q19::c[i][0]), double(D3Q19::c[i][1]), double(D3Q19::c[i][2])};
+            const double w = D3Q19::w(i), cu = dot(c, u_phys);
+            const double even = 0.5 * (f_[i][here] + f_[o][here]), odd = 0.5 * (f_[i][here] - f_[o][here]);
+            double even_eq = w * drho, even_source = 0;
+            if (c_.inertia) {
+                even_eq += w * rho * (4.5 * cu * cu - 1.5 * dot(u_phys, u_phys));
+                even_source = (1 - omega_plus / 2) * w * (9 * cu * dot(c, F_t) - 3 * dot(u_phys, F_t));
+            }
+            const double odd_eq = 3 * w * rho * dot(c, u);
+            post[i] = f_[i][here] - omega_plus * (even - even_eq) + even_source - omega_minus * (odd - odd_eq) +
+                      (1 - omega_minus / 2) * 3 * w * dot(c, mF) + 3 * w * dot(c, F_s);
+            j_post += post[i] * c;
+        }
+        for (const Share& share : shares_[here]) {
+            const double part = share.epsilon / sum;
+            const Vec3 &r = share.r, F = part * F_s, P = (part * eps) * j_post;
+            Load& load = loads_[share.solid];
+            load.force += F;
+            load.torque += Vec3{r[1] * F[2] - r[2] * F[1], r[2] * F[0] - r[0] * F[2], r[0] * F[1] - r[1] * F[0]};
+            load.inside += P;
+            load.angular_inside +=
+                Vec3{r[1] * P[2] - r[2] * P[1], r[2] * P[0] - r[0] * P[2], r[0] * P[1] - r[1] * P[0]};
+            load.coupling += part * m * kk * rho;
+        }
+        for (int i = 0; i < 19; ++i) push(i, post[i], x, y, z);
+    }
+
+    /// Streams one population: across the box where it is periodic, back where a wall is.
+    void push(int i, double value, int x, int y, int z)
+    {
+        std::array<int, 3> to{x + D3Q19::c[i][0], y + D3Q19::c[i][1], z + D3Q19::c[i][2]};
+        int walls = 0;
+        Vec3 wall_velocity{};
+        for (int d = 0; d < 3; ++d) {
+            if (to[d] >= 0 && to[d] < c_.cells[d]) continue;
+            const FaceCondition& face = c_.faces[2 * d + (to[d] < 0 ? 0 : 1)];
+            if (face.type == FaceType::periodic) {
+                to[d] = (to[d] + c_.cells[d]) % c_.cells[d];
+            } else {
+                ++walls;
+                wall_velocity += face.velocity;
+            }
+        }
+        if (walls == 0) {
+            next_[i][cell(to[0], to[1], to[2])] = value;
+        } else {
+            const Vec3 c{double(D3Q19::c[i][0]), double(D3Q19::c[i][1]), double(D3Q19::c[i][2])};
+            next_[D3Q19::opposite(i)][cell(x, y, z)] = value - 6 * D3Q19::w(i) * dot(c, wall_velocity) / walls;
+        }
+    }
+
+    FluidConfig c_;
+    std::vector<std::vector<double>> f_, next_;
+    double Lambda_;
+    std::vector<std::vector<Share>> shares_;
+    std::vector<Load> loads_;
+};
+
+}  // namespace lbm::test

@@ -1,0 +1,153 @@
+#include "close.hpp"
+#include "fields/pack.hpp"
+#include "lattice/vec3.hpp"
+#include "physics/collision.hpp"
+
+#include <cppunit/extensions/HelperMacros.h>
+
+#include <array>
+
+namespace {
+
+using namespace lbm;
+
+constexpr double kRoundOff = 1e-15;
+
+using Populations = double[D3Q19::Q];
+
+void lopsided(Populations& f)
+{
+    for (int i = 0; i < D3Q19::Q; ++i) f[i] = 1e-3 * D3Q19::w(i) * ((i * 7) % 11 - 4);
+}
+
+CollisionParameters parameters(double tau, double lambda)
+{
+    return {TrtRates(tau, lambda), {1e-5, -2e-5, 3e-5}, Weighting(lambda).low_noise};
+}
+
+class Collision : public CppUnit::TestFixture {
+    CPPUNIT_TEST_SUITE(Collision);
+    CPPUNIT_TEST(rates_follow_from_tau_and_lambda);
+    CPPUNIT_TEST(fluid_keeps_mass_and_gains_the_body_force);
+    CPPUNIT_TEST(solid_gains_what_the_fluid_loses);
+    CPPUNIT_TEST(empty_cell_collides_as_fluid);
+    CPPUNIT_TEST(full_cell_moves_with_the_solid);
+    CPPUNIT_TEST(fluid_at_the_velocity_of_the_solid_feels_nothing);
+    CPPUNIT_TEST(lanes_give_the_bits_of_single_cells);
+    CPPUNIT_TEST_SUITE_END();
+
+    void rates_follow_from_tau_and_lambda()
+    {
+        const TrtRates rates(0.8, 0.1875);
+        LBM_ASSERT_CLOSE(1 / 0.8, rates.omega_plus, kRoundOff, 1.0);
+        LBM_ASSERT_CLOSE(0.1875, (1 / rates.omega_plus - 0.5) * (1 / rates.omega_minus - 0.5), 1e-14, 0.1875);
+    }
+
+    void fluid_keeps_mass_and_gains_the_body_force()
+    {
+        for (const double tau : {0.51, 0.8, 5.0}) {
+            const auto p = parameters(tau, 0.125);
+            Populations f;
+            lopsided(f);
+            const auto before = moments(f);
+            collide_fluid<true>(f, p);
+            const auto after = moments(f);
+            LBM_ASSERT_CLOSE(before.drho, after.drho, kRoundOff, 1.0);
+            for (int d = 0; d < 3; ++d) LBM_ASSERT_CLOSE(before.j[d] + p.body_force[d], after.j[d], kRoundOff, 1.0);
+        }
+    }
+
+    void solid_gains_what_the_fluid_loses()
+    {
+        for (const double lambda : {0.125, 0.25})
+            for (const double epsilon : {0.0, 1e-6, 0.3, 0.9, 1.0}) {
+                const auto p = parameters(0.7, lambda);
+                Populations f;
+                lopsided(f);
+                const auto before = moments(f);
+                Exchange<double> out;
+                collide_saturated<true>(f, p, {epsilon, 3 * epsilon, {0.02, 0.0, -0.01}}, out);
+                const auto after = moments(f);
+                LBM_ASSERT_CLOSE(before.drho, after.drho, kRoundOff, 1.0);
+                for (int d = 0; d < 3; ++d) {
+                    LBM_ASSERT_CLOSE(before.j[d] + (1 - epsilon) * p.body_force[d] + out.force[d], after.j[d],
+                                     kRoundOff, 1.0);
+                    LBM_ASSERT_CLOSE(after.j[d], out.momentum[d], kRoundOff, 1.0);
+                }
+            }
+    }
+
+    void empty_cell_collides_as_fluid()
+    {
+        for (const double lambda : {0.125, 0.25}) {
+            const auto p = parameters(0.9, lambda);
+            Populations f, g;
+            lopsided(f);
+            lopsided(g);
+            Exchange<double> out;
+            collide_saturated<true>(f, p, {0, 0, {0, 0, 0}}, out);
+            collide_fluid<true>(g, p);
+            for (int i = 0; i < D3Q19::Q; ++i) LBM_ASSERT_CLOSE(g[i], f[i], kRoundOff, 1.0);
+            for (int d = 0; d < 3; ++d) CPPUNIT_ASSERT_EQUAL(0.0, out.force[d]);
+        }
+    }
+
+    void full_cell_moves_with_the_solid()
+    {
+        Populations f;
+        lopsided(f);
+        const double u_s[3] = {0.02, 0.0, -0.01};
+        const auto before = moments(f);
+        Exchange<double> out;
+        const double speed2 = collide_saturated<true>(f, parameters(0.7, 0.125), {1, 3, {u_s[0], u_s[1], u_s[2]}}, out);
+        const double rho = 1 + before.drho;
+        for (int d = 0; d < 3; ++d)
+            LBM_ASSERT_CLOSE(rho * u_s[d], 0.5 * (before.j[d] + out.momentum[d]), kRoundOff, 1.0);
+        LBM_ASSERT_CLOSE(u_s[0] * u_s[0] + u_s[2] * u_s[2], speed2, kRoundOff, 1.0);
+        LBM_ASSERT_CLOSE(2 * rho, out.weight, kRoundOff, 1.0);
+    }
+
+    void fluid_at_the_velocity_of_the_solid_feels_nothing()
+    {
+        CollisionParameters p = parameters(0.7, 0.125);
+        for (double& F : p.body_force) F = 0;
+        Populations f{};
+        const Vec3 u{0.03, -0.02, 0.01};
+        for (int i = 0; i < D3Q19::Q; ++i) {
+            const auto& c = D3Q19::c[i];
+            f[i] = 3 * D3Q19::w(i) * (c[0] * u[0] + c[1] * u[1] + c[2] * u[2]);
+        }
+        Exchange<double> out;
+        collide_saturated<false>(f, p, {0.4, 1.2, {u[0], u[1], u[2]}}, out);
+        for (int d = 0; d < 3; ++d) LBM_ASSERT_CLOSE(0.0, out.force[d], kRoundOff, 1.0);
+    }
+
+    void lanes_give_the_bits_of_single_cells()
+    {
+        const auto p = parameters(0.62, 0.125);
+        Pack<4> pack[D3Q19::Q];
+        Saturation<Pack<4>> s{};
+        std::array<Saturation<double>, 4> single_s{};
+        double single[4][D3Q19::Q];
+        for (int l = 0; l < 4; ++l) {
+            lopsided(single[l]);
+            for (int i = 0; i < D3Q19::Q; ++i) pack[i][l] = single[l][i] *= 1 + 0.3 * l;
+            single_s[l] = {0.3 * l, 0.8 * l, {0.01 * l, 0.02, -0.01}};
+            s.epsilon[l] = single_s[l].epsilon;
+            s.strength[l] = single_s[l].strength;
+            for (int d = 0; d < 3; ++d) s.u_s[d][l] = single_s[l].u_s[d];
+        }
+        Exchange<Pack<4>> out;
+        collide_saturated<true>(pack, p, s, out);
+        for (int l = 0; l < 4; ++l) {
+            Exchange<double> single_out;
+            collide_saturated<true>(single[l], p, single_s[l], single_out);
+            for (int i = 0; i < D3Q19::Q; ++i) CPPUNIT_ASSERT_EQUAL(single[l][i], double(pack[i][l]));
+            CPPUNIT_ASSERT_EQUAL(single_out.force[0], double(out.force[0][l]));
+        }
+    }
+};
+
+CPPUNIT_TEST_SUITE_REGISTRATION(Collision);
+
+}  // namespace

@@ -1,0 +1,229 @@
+#include "close.hpp"
+#include "lattice_units.hpp"
+#include "reference_fluid.hpp"
+
+#include "lbm/fluid.hpp"
+
+#include <cppunit/extensions/HelperMacros.h>
+
+#include <string>
+
+namespace {
+
+using namespace lbm;
+using lbm::test::lattice_config;
+using lbm::test::ReferenceFluid;
+
+/// After some tens of steps of order-one arithmetic.
+constexpr double kRoundOff = 1e-13;
+
+/// Rounding of the populations' deviations to 32 bits, against speeds of 0.05.
+constexpr double kSingleRoundOff = 2e-6;
+
+constexpr int kSteps = 12;
+
+std::vector<Solid> moved(std::vector<Solid> solids, double t)
+{
+    for (Solid& s : solids)
+        for (int d = 0; d < 3; ++d) s.position[d] += t * s.velocity[d];
+    return solids;
+}
+
+/// Velocity field of the twin after its last collision, from the momentum alone: the engine's outgoing momentum must agree.
+Vec3 momentum(ReferenceFluid& reference)
+{
+    Vec3 sum{};
+    for (int i = 0; i < 19; ++i)
+        for (const double f : reference.population(i))
+            for (int d = 0; d < 3; ++d) sum[d] += D3Q19::c[i][d] * f;
+    return sum;
+}
+
+class Step : public CppUnit::TestFixture {
+    CPPUNIT_TEST_SUITE(Step);
+    CPPUNIT_TEST(agrees_with_the_plain_twin_in_a_periodic_box);
+    CPPUNIT_TEST(agrees_between_walls_at_odd_sizes);
+    CPPUNIT_TEST(agrees_in_one_cell_thick_boxes);
+    CPPUNIT_TEST(agrees_with_solids_across_periodic_faces_and_sharing_cells);
+    CPPUNIT_TEST(agrees_in_stokes_flow_with_any_magic_parameter);
+    CPPUNIT_TEST(single_storage_agrees_to_its_own_round_off);
+    CPPUNIT_TEST(any_number_of_threads_gives_the_same_bits);
+    CPPUNIT_TEST(solids_that_moved_step_by_step_stand_as_if_placed_anew);
+    CPPUNIT_TEST_SUITE_END();
+
+    void compare(const FluidConfig& c, const std::vector<Solid>& start, double tolerance = kRoundOff)
+    {
+        Fluid fluid(c);
+        ReferenceFluid reference(c);
+        fluid.place_solids(start);
+        std::vector<ReferenceFluid::Load> before(start.size());
+        for (int t = 0; t < kSteps; ++t) {
+            const auto solids = moved(start, t);
+            fluid.place_solids(solids);
+            fluid.step();
+            reference.step(solids);
+            for (std::size_t s = 0; s < start.size(); ++s) {
+                // The bookkeeping of the physics page; the fluid starts at rest, so P_in and L_in start at zero.
+                const auto& now = reference.loads()[s];
+                for (int d = 0; d < 3; ++d) {
+                    const double force = now.inside[d] - before[s].inside[d] - now.force[d];
+                    const double torque = now.angular_inside[d] - before[s].angular_inside[d] - now.torque[d];
+                    const double drive = 4.18879020478639 * std::pow(start[s].radius, 3) * c.acceleration[d];
+                    LBM_ASSERT_CLOSE(force, fluid.loads()[s].force[d] - drive, tolerance, 10.0);
+                    LBM_ASSERT_CLOSE(torque, fluid.loads()[s].torque[d], tolerance, 10.0);
+                }
+            }
+            before = reference.loads();
+        }
+        // Fields: a population that went astray anywhere shows in velocity or pressure somewhere.
+        const auto velocity = fluid.velocity_field(), pressure = fluid.pressure_field();
+        const auto epsilon = fluid.solid_fraction_field();
+        const auto [nx, ny, nz] = c.cells;
+        for (int z = 0; z < nz; ++z)
+            for (int y = 0; y < ny; ++y)
+                for (int x = 0; x < nx; ++x) {
+                    const std::size_t at = reference.cell(x, y, z);
+                    double drho = 0;
+                    Vec3 j{};
+                    for (int i = 0; i < 19; ++i) {
+                        drho += reference.population(i)[at];
+                        for (int d = 0; d < 3; ++d) j[d] += D3Q19::c[i][d] * reference.population(i)[at];
+                    }
+                    LBM_ASSERT_CLOSE(drho / 3, pressure[at], tolerance, 1.0);
+                    if (epsilon[at] > 0) continue;
+                    for (int d = 0; d < 3; ++d) {
+                        const double u = (j[d] + 0.5 * c.acceleration[d]) / (c.inertia ? 1 + drho : 1);
+                        LBM_ASSERT_CLOSE(u, velocity[3 * at + d], tolerance, 1.0);
+                    }
+                }
+        CPPUNIT_ASSERT(norm(momentum(reference)) > 0);
+    }
+
+    static FluidConfig driven(const std::array<int, 3>& cells, double tau)
+    {
+        FluidConfig c = lattice_config(cells, tau);
+        c.acceleration = {1e-4, -2e-4, 5e-5};
+        return c;
+    }
+
+    static std::vector<Solid> one_sphere()
+    {
+        Solid s;
+        s.radius = 2.6;
+        s.position = {5.3, 4.1, 5.2};
+        s.velocity = {0.05, -0.02, 0.01};
+        s.angular_velocity = {0.004, 0.01, -0.006};
+        return {s};
+    }
+
+    void agrees_with_the_plain_twin_in_a_periodic_box()
+    {
+        compare(driven({11, 10, 12}, 0.6), {});
+        compare(driven({11, 10, 12}, 0.6), one_sphere());
+        compare(driven({16, 9, 8}, 1.7), one_sphere());
+    }
+
+    void agrees_between_walls_at_odd_sizes()
+    {
+        FluidConfig c = driven({13, 9, 10}, 0.8);
+        for (int axis = 0; axis < 3; ++axis) {
+            lbm::test::walls(c, axis);
+            compare(c, one_sphere());
+        }
+        c.faces[kYMax].velocity = {0.05, 0, 0.02};
+        c.faces[kXMin].velocity = {0, 0.03, 0};
+        compare(c, one_sphere());
+        // A sphere that stands out of two walls; without the drive, whose load is that of the part inside.
+        c.acceleration = {};
+        auto out = one_sphere();
+        out[0].position = {1.5, 8.2, 5};
+        compare(c, out);
+    }
+
+    void agrees_in_one_cell_thick_boxes()
+    {
+        for (const std::array<int, 3>& cells :
+             {std::array{1, 7, 9}, std::array{9, 1, 7}, std::array{17, 9, 1}, std::array{1, 1, 5}}) {
+            FluidConfig c = driven(cells, 0.7);
+            compare(c, {});
+            for (int axis = 0; axis < 3; ++axis) lbm::test::walls(c, axis);
+            compare(c, {});
+        }
+    }
+
+    void agrees_with_solids_across_periodic_faces_and_sharing_cells()
+    {
+        auto solids = one_sphere();
+        solids[0].position = {0.2, 9.9, 11.7};
+        Solid second = solids[0];
+        second.id = 1;
+        second.radius = 2.2;
+        second.position = {4.4, 9.5, 11.9};  // touches the first
+        second.velocity = {-0.03, 0.01, 0.02};
+        Solid third = second;
+        third.id = 2;
+        third.position = {2.5, 12.6, 12.2};  // overlaps both
+        solids.push_back(second);
+        solids.push_back(third);
+        compare(driven({11, 10, 12}, 0.6), solids);
+        // As wide as the box: its rims share cells with themselves.
+        auto wide = one_sphere();
+        wide[0].radius = 4.5;
+        compare(driven({9, 9, 9}, 0.9), wide);
+    }
+
+    void agrees_in_stokes_flow_with_any_magic_parameter()
+    {
+        for (const double lambda : {0.125, 0.1875, 0.25}) {
+            FluidConfig c = driven({11, 10, 12}, 0.55);
+            c.inertia = false;
+            c.magic_parameter = lambda;
+            compare(c, one_sphere());
+        }
+    }
+
+    void single_storage_agrees_to_its_own_round_off()
+    {
+        FluidConfig c = driven({11, 10, 12}, 0.6);
+        c.storage = Storage::single_precision;
+        compare(c, one_sphere(), kSingleRoundOff);
+    }
+
+    void any_number_of_threads_gives_the_same_bits()
+    {
+        std::vector<double> first;
+        Vec3 first_force{};
+        for (const int threads : {1, 2, 3, 7}) {
+            FluidConfig c = driven({19, 14, 15}, 0.6);
+            c.threads = threads;
+            auto solids = one_sphere();
+            solids.push_back(solids[0]);
+            solids[1].id = 1;
+            solids[1].position = {11, 9, 9};
+            Fluid fluid(c);
+            for (int t = 0; t < kSteps; ++t) {
+                fluid.place_solids(moved(solids, t));
+                fluid.step();
+            }
+            if (first.empty()) {
+                first = fluid.velocity_field();
+                first_force = fluid.loads()[1].force;
+            }
+            CPPUNIT_ASSERT(first == fluid.velocity_field());
+            CPPUNIT_ASSERT(first_force == fluid.loads()[1].force);
+        }
+    }
+
+    void solids_that_moved_step_by_step_stand_as_if_placed_anew()
+    {
+        const FluidConfig c = driven({19, 14, 15}, 0.6);
+        Fluid moving(c), placed(c);
+        for (int t = 0; t < 60; ++t) moving.place_solids(moved(one_sphere(), t));
+        placed.place_solids(moved(one_sphere(), 59));
+        CPPUNIT_ASSERT(moving.solid_fraction_field() == placed.solid_fraction_field());
+    }
+};
+
+CPPUNIT_TEST_SUITE_REGISTRATION(Step);
+
+}  // namespace
