@@ -17,14 +17,29 @@ struct WatchPack {
     }
 };
 
+// Unrolled, so that the populations live in registers.
+template <class V, class T>
+[[gnu::always_inline]] inline void load_all(T* const (&p)[D3Q19::Q], int x, V (&f)[D3Q19::Q])
+{
+#pragma GCC unroll 19
+    for (int i = 0; i < D3Q19::Q; ++i) f[i] = load<sizeof(V) / sizeof(double)>(p[i] + x);
+}
+
+template <class V, class T>
+[[gnu::always_inline]] inline void store_all(T* const (&p)[D3Q19::Q], int x, const V (&f)[D3Q19::Q])
+{
+#pragma GCC unroll 19
+    for (int i = 0; i < D3Q19::Q; ++i) store<sizeof(V) / sizeof(double)>(p[D3Q19::opposite(i)] + x, f[i]);
+}
+
 template <bool inertia, int W, class T>
 [[gnu::always_inline]] inline void sweep_fluid(T* const (&p)[D3Q19::Q], int x, const CollisionParameters& parameters,
                                                WatchPack<W>& watch)
 {
     Pack<W> f[D3Q19::Q];
-    for (int i = 0; i < D3Q19::Q; ++i) f[i] = load<W>(p[i] + x);
+    load_all(p, x, f);
     watch.see(collide_fluid<inertia>(f, parameters));
-    for (int i = 0; i < D3Q19::Q; ++i) store<W>(p[D3Q19::opposite(i)] + x, f[i]);
+    store_all(p, x, f);
 }
 
 template <bool inertia, int W, class T>
@@ -33,7 +48,7 @@ template <bool inertia, int W, class T>
                                                    WatchPack<W>& watch)
 {
     Pack<W> f[D3Q19::Q];
-    for (int i = 0; i < D3Q19::Q; ++i) f[i] = load<W>(p[i] + x);
+    load_all(p, x, f);
     const auto read = [&](int column) __attribute__((always_inline)) { return load<W>(cells.column(column) + x); };
     const auto write = [&](int column, const Pack<W>& v) __attribute__((always_inline))
     {
@@ -49,7 +64,7 @@ template <bool inertia, int W, class T>
         write(C::kMomentum + d, answer.momentum[d]);
     }
     write(C::kWeight, answer.weight);
-    for (int i = 0; i < D3Q19::Q; ++i) store<W>(p[D3Q19::opposite(i)] + x, f[i]);
+    store_all(p, x, f);
 }
 
 template <class V>
