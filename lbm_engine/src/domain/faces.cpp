@@ -3,6 +3,11 @@
 #include "lattice/vec3.hpp"
 
 namespace lbm {
+namespace {
+
+constexpr int kAlongX = 1;  // the subset of axes that is x alone
+
+}  // namespace
 
 Faces::Faces(const Layout& layout, const std::array<FaceCondition, 6>& conditions)
     : stride_{1, layout.row, layout.plane}
@@ -11,8 +16,7 @@ Faces::Faces(const Layout& layout, const std::array<FaceCondition, 6>& condition
         const auto& c = D3Q19::c[i];
         // f_i comes in across each non-empty subset of the axes along which it moves.
         for (int subset = 1; subset < 8; ++subset) {
-            Links links{0, 0, layout.n, 0};
-            std::array<int, 3> ghost{}, wrapped{};
+            std::array<int, 3> ghost{}, wrapped{}, extent = layout.n;
             Vec3 wall_velocity{};
             int walls = 0;
             bool moves = true;
@@ -22,7 +26,7 @@ Faces::Faces(const Layout& layout, const std::array<FaceCondition, 6>& condition
                     const FaceCondition& face = conditions[2 * d + (c[d] > 0 ? 0 : 1)];
                     ghost[d] = c[d] > 0 ? -1 : layout.n[d];
                     wrapped[d] = c[d] > 0 ? layout.n[d] - 1 : 0;
-                    links.extent[d] = 1;
+                    extent[d] = 1;
                     if (face.type != FaceType::periodic) {
                         ++walls;
                         wall_velocity += face.velocity;
@@ -30,20 +34,23 @@ Faces::Faces(const Layout& layout, const std::array<FaceCondition, 6>& condition
                 } else {
                     // Ghosts next to an edge of this face send into the box along its inner part only.
                     ghost[d] = wrapped[d] = c[d] < 0 ? 1 : 0;
-                    links.extent[d] = layout.n[d] - (c[d] == 0 ? 0 : 1);
+                    extent[d] = layout.n[d] - (c[d] == 0 ? 0 : 1);
                 }
             }
             if (!moves) continue;
             const int back = D3Q19::opposite(i);
-            links.ghost = layout.slot(back, ghost[0], ghost[1], ghost[2]);
-            if (walls == 0) {
-                links.partner = layout.slot(back, wrapped[0], wrapped[1], wrapped[2]);
-            } else {
-                links.partner = layout.slot(i, ghost[0] + c[0], ghost[1] + c[1], ghost[2] + c[2]);
-                links.gain = 6 * D3Q19::w(i) / walls *
-                             (c[0] * wall_velocity[0] + c[1] * wall_velocity[1] + c[2] * wall_velocity[2]);
-            }
-            links_.push_back(links);
+            const Layout::Index outside = layout.slot(back, ghost[0], ghost[1], ghost[2]);
+            const Layout::Index across = layout.slot(back, wrapped[0], wrapped[1], wrapped[2]);
+            const Layout::Index reflected = layout.slot(i, ghost[0] + c[0], ghost[1] + c[1], ghost[2] + c[2]);
+            const double push = c[0] * wall_velocity[0] + c[1] * wall_velocity[1] + c[2] * wall_velocity[2];
+            const Links links{outside,
+                              walls ? reflected : across,
+                              ghost,
+                              extent,
+                              D3Q19::c[i],
+                              walls > 0,
+                              walls ? 6 * D3Q19::w(i) * push / walls : 0.0};
+            (subset == kAlongX ? x_links_ : links_).push_back(links);
         }
     }
 }
@@ -65,21 +72,57 @@ void Faces::for_links(T* f, Move move) const
     }
 }
 
+template <class T, class Move>
+void Faces::for_links_of_row(T* f, int y, int z, bool fill, Move move) const
+{
+    for (const Links& links : x_links_) {
+        // The row of the cell that the link leads into; to fill across the box, the row itself, whose far end is the source.
+        const bool own = fill && !links.wall;
+        const int j = y - links.first[1] - (own ? 0 : links.c[1]), k = z - links.first[2] - (own ? 0 : links.c[2]);
+        if (j < 0 || j >= links.extent[1] || k < 0 || k >= links.extent[2]) continue;
+        const Layout::Index at = k * stride_[2] + j * stride_[1];
+        move(f[links.ghost + at], f[links.partner + at], static_cast<T>(links.gain));
+    }
+}
+
+namespace {
+
+constexpr auto kFill = [](auto& ghost, const auto& partner, auto gain) { ghost = partner + gain; };
+constexpr auto kDrain = [](const auto& ghost, auto& partner, auto gain) { partner = ghost + gain; };
+
+}  // namespace
+
+template <class T>
+void Faces::fill_row(T* f, int y, int z) const
+{
+    for_links_of_row(f, y, z, true, kFill);
+}
+
+template <class T>
+void Faces::drain_row(T* f, int y, int z) const
+{
+    for_links_of_row(f, y, z, false, kDrain);
+}
+
 template <class T>
 void Faces::fill(T* f) const
 {
-    for_links(f, [](T& ghost, const T& partner, T gain) { ghost = partner + gain; });
+    for_links(f, kFill);
 }
 
 template <class T>
 void Faces::drain(T* f) const
 {
-    for_links(f, [](const T& ghost, T& partner, T gain) { partner = ghost + gain; });
+    for_links(f, kDrain);
 }
 
-template void Faces::fill(double*) const;
-template void Faces::fill(float*) const;
-template void Faces::drain(double*) const;
-template void Faces::drain(float*) const;
+#define LBM_INSTANTIATE(T)                                                                                             \
+    template void Faces::fill_row(T*, int, int) const;                                                                 \
+    template void Faces::drain_row(T*, int, int) const;                                                                \
+    template void Faces::fill(T*) const;                                                                               \
+    template void Faces::drain(T*) const;
+LBM_INSTANTIATE(double)
+LBM_INSTANTIATE(float)
+#undef LBM_INSTANTIATE
 
 }  // namespace lbm

@@ -22,11 +22,17 @@ public:
     /// @param conditions  in lattice units; both faces of a periodic pair periodic
     Faces(const Layout& layout, const std::array<FaceCondition, 6>& conditions);
 
-    /// Ghost <- partner. To be called when parity has become odd.
+    /// Faces along x, ghost <- partner, as soon as row (y, z) has made its step and while it is in cache. Rows in any order, by any thread.
+    template <class T>
+    void fill_row(T* f, int y, int z) const;
+    /// Faces along x, partner <- ghost.
+    template <class T>
+    void drain_row(T* f, int y, int z) const;
+
+    /// The other faces, ghost <- partner. After the step that made parity odd.
     template <class T>
     void fill(T* f) const;
-
-    /// Partner <- ghost. To be called when parity has become even.
+    /// The other faces, partner <- ghost. After the step that made parity even.
     template <class T>
     void drain(T* f) const;
 
@@ -34,14 +40,18 @@ private:
     /// A block of links of one direction: slots ghost + d.stride and partner + d.stride, 0 <= d < extent.
     struct Links {
         Layout::Index ghost, partner;
-        std::array<int, 3> extent;
+        std::array<int, 3> first, extent;  ///< of the ghosts
+        const int (&c)[3];                 ///< into the box
+        bool wall;
         double gain;  ///< what a moving wall adds
     };
     template <class T, class Move>
     void for_links(T* f, Move move) const;
+    template <class T, class Move>
+    void for_links_of_row(T* f, int y, int z, bool fill, Move move) const;
 
     std::array<Layout::Index, 3> stride_;
-    std::vector<Links> links_;
+    std::vector<Links> x_links_, links_;
 };
 
 }  // namespace lbm

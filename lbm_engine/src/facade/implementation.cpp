@@ -139,7 +139,12 @@ void Fluid::Implementation::step()
     Stopwatch watch_time;
     std::visit(
         [&](auto& f) {
-            const SpeedWatch speeds = sweep(f, collision, config.inertia, map);
+            auto* const slots = f.data();
+            const auto x_faces = [&, to_odd = !f.odd](int y, int z) {
+                if (to_odd) faces.fill_row(slots, y, z);
+                else faces.drain_row(slots, y, z);
+            };
+            const SpeedWatch speeds = sweep(f, collision, config.inertia, map, x_faces);
             times.collide_stream += watch_time.lap();
             if (f.odd) faces.fill(f.data());
             else faces.drain(f.data());

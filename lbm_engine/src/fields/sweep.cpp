@@ -5,7 +5,8 @@
 namespace lbm {
 
 template <class T>
-SpeedWatch sweep(Populations<T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids)
+SpeedWatch sweep(Populations<T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
+                 const std::function<void(int, int)>& after_row)
 {
     static const SweepRows<T> variants = sweep_rows<T>();
     const SweepRow<T> sweep_row = inertia ? variants.inertia : variants.stokes;
@@ -28,6 +29,7 @@ SpeedWatch sweep(Populations<T>& populations, const CollisionParameters& p, bool
             } else {
                 sweep_row(populations.data(), slot, nx, p, nullptr, watch);
             }
+            after_row(y, z);
         }
         max2 = watch.max2;
         sum2 = watch.sum2;
@@ -61,8 +63,10 @@ void sum_inside(const Populations<T>& populations, SolidMap& solids)
     }
 }
 
-template SpeedWatch sweep(Populations<double>&, const CollisionParameters&, bool, SolidMap&);
-template SpeedWatch sweep(Populations<float>&, const CollisionParameters&, bool, SolidMap&);
+template SpeedWatch sweep(Populations<double>&, const CollisionParameters&, bool, SolidMap&,
+                          const std::function<void(int, int)>&);
+template SpeedWatch sweep(Populations<float>&, const CollisionParameters&, bool, SolidMap&,
+                          const std::function<void(int, int)>&);
 template void sum_inside(const Populations<double>&, SolidMap&);
 template void sum_inside(const Populations<float>&, SolidMap&);
 

@@ -4,11 +4,17 @@
 #include "fields/solid_map.hpp"
 #include "fields/sweep_row.hpp"
 
+#include <functional>
+
 namespace lbm {
 
-/// Collides and streams all cells once and leaves the solids' sums in the map. Flips the parity; the faces come next.
+/**
+ * Collides and streams all cells once and leaves the solids' sums in the map. Flips the parity; the faces come next.
+ * @param after_row  called as after_row(y, z) when a row has made its step; rows in any order, by any thread
+ */
 template <class T>
-SpeedWatch sweep(Populations<T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids);
+SpeedWatch sweep(Populations<T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
+                 const std::function<void(int, int)>& after_row);
 
 /// The state of a cell between two steps, in lattice units.
 struct CellState {
