@@ -10,9 +10,12 @@ namespace lbm {
 /// Cells side by side in a row that take the fluid path or the saturated path together.
 inline constexpr int kBlock = 8;
 
+constexpr std::size_t padded_to_blocks(std::size_t n) { return (n + kBlock - 1) / kBlock * kBlock; }
+
 /**
  * One row of cells as the saturated collision sees it: what the solids say to the cells, and what the cells answer.
- * One per thread; entries outside covered blocks are zero (input) or meaningless (answers).
+ * One per thread; outside covered blocks the input is zero and the answers are finite and meaningless. A block more than the row
+ * holds lets spans be worked on in whole blocks wherever they begin.
  */
 struct RowSaturation {
     enum Column {
@@ -27,7 +30,7 @@ struct RowSaturation {
     };
 
     explicit RowSaturation(int nx)
-        : stride(static_cast<std::size_t>((nx + kBlock - 1) / kBlock) * kBlock)
+        : stride(padded_to_blocks(nx) + kBlock)
         , values(kColumns * stride, 0.0)
         , covered(stride / kBlock, 0)
     {

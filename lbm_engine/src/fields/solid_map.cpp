@@ -1,7 +1,11 @@
 #include "fields/solid_map.hpp"
 
+#include "fields/pack.hpp"
+#include "lattice/each_isa.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 namespace lbm {
@@ -88,6 +92,7 @@ void SolidMap::map(MappedSolid& solid, SphereFraction& fraction) const
             solid.spans.push_back(
                 {first[0] + in_begin, in_end - in_begin, static_cast<std::uint32_t>(solid.fractions.size())});
             solid.fractions.insert(solid.fractions.end(), row + in_begin, row + in_end);
+            solid.fractions.resize(padded_to_blocks(solid.fractions.size()), 0.0);
         }
     const double R = sphere.radius;
     solid.volume = 4 * std::numbers::pi / 3 * R * R * R - outside;
@@ -119,94 +124,138 @@ void SolidMap::list_rows()
     });
 }
 
-/// Calls body(x in the box, first, last, shift) for the pieces of a span that lie side by side in the box.
-template <class Body>
-void SolidMap::for_cells(const Span& span, Body body) const
+namespace {
+
+/// 0, 1, 2, ... along the lanes.
+template <int W>
+[[gnu::always_inline]] inline Pack<W> lanes()
 {
-    for (int done = 0; done < span.n;) {
-        const int x = wrap(span.x0 + done, n_[0]);
-        const int piece = std::min(span.n - done, n_[0] - x);
-        body(x, done, piece);
-        done += piece;
+    if constexpr (W == 1) return 0;
+    else return Pack<W>{0, 1, 2, 3, 4, 5, 6, 7};
+}
+
+/// u_s = u0 + (0, spin_y, spin_z) rx along a row.
+struct RowVelocity {
+    Vec3 u0;
+    double spin_y, spin_z;
+};
+
+template <int W>
+[[gnu::always_inline]] inline void add_solid(RowSaturation& cells, int x, int n, const double* eps, double k, double rx,
+                                             const RowVelocity& v)
+{
+    using C = RowSaturation;
+    double* const column[] = {cells.column(C::kEpsilonSum) + x, cells.column(C::kStrength) + x,
+                              cells.column(C::kUs) + x, cells.column(C::kUs + 1) + x, cells.column(C::kUs + 2) + x};
+    for (int i = 0; i < n; i += W) {
+        const Pack<W> e = load<W>(eps + i), r = (rx + i) + lanes<W>();
+        const Pack<W> term[] = {e, k * e, e * v.u0[0], e * (v.u0[1] + v.spin_y * r), e * (v.u0[2] + v.spin_z * r)};
+        for (int c = 0; c < 5; ++c) store<W>(column[c] + i, load<W>(column[c] + i) + term[c]);
     }
 }
 
+/// Where solids overlap the fractions fill the cell at most once; the mean velocity is weighted by them.
+LBM_EACH_ISA
+void normalise(RowSaturation& cells)
+{
+    using C = RowSaturation;
+    for (std::size_t b = 0; b < cells.covered.size(); ++b) {
+        if (!cells.covered[b]) continue;
+        const auto column = [&](int c) { return cells.column(c) + b * kBlock; };
+        const Pack<kBlock> sum = load<kBlock>(column(C::kEpsilonSum));
+        const Pack<kBlock> one = Pack<kBlock>{} + 1.0;
+        const Pack<kBlock> inverse = one / (sum > 0 ? sum : one);
+        const Pack<kBlock> epsilon = sum < 1 ? sum : one;
+        store<kBlock>(column(C::kEpsilon), epsilon);
+        store<kBlock>(column(C::kStrength), load<kBlock>(column(C::kStrength)) * (epsilon * inverse));
+        for (int d = 0; d < 3; ++d) store<kBlock>(column(C::kUs + d), load<kBlock>(column(C::kUs + d)) * inverse);
+    }
+}
+
+/// The thirteen sums of a span in the order of SpanSums: F, rx F, P, rx P (y and z), b, b rx^2.
+constexpr int kSpanSums = 13;
+
+template <int W>
+[[gnu::always_inline]] inline void add_answers(const RowSaturation& cells, int x, int n, const double* eps, double rx,
+                                               double (&sums)[kSpanSums])
+{
+    using C = RowSaturation;
+    const auto in = [&](int column, int i) __attribute__((always_inline))
+    {
+        return load<W>(cells.column(column) + x + i);
+    };
+    Pack<W> t[kSpanSums]{};
+    for (int i = 0; i < n; i += W) {
+        const Pack<W> sum = in(C::kEpsilonSum, i), epsilon = in(C::kEpsilon, i);
+        const Pack<W> one = Pack<W>{} + 1.0;
+        const Pack<W> share = load<W>(eps + i) / (sum > 0 ? sum : one);
+        const Pack<W> filled = share * epsilon, r = (rx + i) + lanes<W>();
+        for (int d = 0; d < 3; ++d) {
+            const Pack<W> F = share * in(C::kForce + d, i), P = filled * in(C::kMomentum + d, i);
+            t[d] += F;
+            t[3 + d] += r * F;
+            t[6 + d] += P;
+            if (d > 0) t[8 + d] += r * P;
+        }
+        const Pack<W> b = share * (1 - epsilon) * in(C::kWeight, i);
+        t[11] += b;
+        t[12] += b * r * r;
+    }
+    for (int s = 0; s < kSpanSums; ++s) {
+        if constexpr (W == 1) sums[s] += t[s];
+        else
+            for (int l = 0; l < W; ++l) sums[s] += t[s][l];
+    }
+}
+
+}  // namespace
+
+LBM_EACH_ISA
 void SolidMap::saturate(std::size_t row, RowSaturation& cells) const
 {
-    double* const sum = cells.column(RowSaturation::kEpsilonSum);
-    double* const strength = cells.column(RowSaturation::kStrength);
-    double* const us = cells.column(RowSaturation::kUs);
-    const std::size_t stride = cells.stride;
     for (std::uint32_t e = row_begin_[row]; e < row_begin_[row + 1]; ++e) {
         const MappedSolid& solid = solids_[entries_[e].solid];
         const int s = entries_[e].span;
         const Span& span = solid.spans[s];
+        if (span.n == 0) continue;
         const Vec3 &X = solid.sphere.centre, &U = solid.sphere.velocity, &W = solid.sphere.angular_velocity;
         const int y = solid.y0 + s % solid.ny, z = solid.z0 + s / solid.ny;
         const double ry = y + 0.5 - X[1], rz = z + 0.5 - X[2];
-        const double k = solid.k;
         // u_s = U + W x r along the row.
-        const Vec3 u0{U[0] + W[1] * rz - W[2] * ry, U[1] - W[0] * rz, U[2] + W[0] * ry};
-        for_cells(span, [&](int x, int done, int piece) {
-            const double* const eps = solid.fractions.data() + span.fractions + done;
-            const double rx = span.x0 + done + 0.5 - X[0];
-            for (int i = 0; i < piece; ++i) {
-                sum[x + i] += eps[i];
-                strength[x + i] += k * eps[i];
-                us[x + i] += eps[i] * u0[0];
-                us[stride + x + i] += eps[i] * (u0[1] + W[2] * (rx + i));
-                us[2 * stride + x + i] += eps[i] * (u0[2] - W[1] * (rx + i));
+        const RowVelocity v{{U[0] + W[1] * rz - W[2] * ry, U[1] - W[0] * rz, U[2] + W[0] * ry}, W[2], -W[1]};
+        const double* const eps = solid.fractions.data() + span.fractions;
+        const double rx = span.x0 + 0.5 - X[0];
+        const int x0 = wrap(span.x0, n_[0]);
+        if (x0 + span.n <= n_[0]) {
+            add_solid<kBlock>(cells, x0, span.n, eps, solid.k, rx, v);
+            for (int b = x0 / kBlock; b <= (x0 + span.n - 1) / kBlock; ++b) cells.covered[b] = 1;
+        } else {
+            for (int i = 0; i < span.n; ++i) {
+                const int x = wrap(span.x0 + i, n_[0]);
+                add_solid<1>(cells, x, 1, eps + i, solid.k, rx + i, v);
+                cells.covered[x / kBlock] = 1;
             }
-            for (int b = x / kBlock; b <= (x + piece - 1) / kBlock; ++b) cells.covered[b] = 1;
-        });
-    }
-    double* const epsilon = cells.column(RowSaturation::kEpsilon);
-    for (std::size_t b = 0; b < cells.covered.size(); ++b) {
-        if (!cells.covered[b]) continue;
-        for (std::size_t x = b * kBlock; x < (b + 1) * kBlock; ++x) {
-            // Where solids overlap the fractions fill the cell at most once; the mean velocity is weighted by them.
-            const double total = sum[x];
-            const double inverse = 1 / (total > 0 ? total : 1);
-            epsilon[x] = std::min(total, 1.0);
-            strength[x] *= epsilon[x] * inverse;
-            for (int d = 0; d < 3; ++d) us[d * stride + x] *= inverse;
         }
     }
+    normalise(cells);
 }
 
+LBM_EACH_ISA
 void SolidMap::collect(std::size_t row, RowSaturation& cells)
 {
-    const double* const sum = cells.column(RowSaturation::kEpsilonSum);
-    const double* const epsilon = cells.column(RowSaturation::kEpsilon);
-    const double* const force = cells.column(RowSaturation::kForce);
-    const double* const momentum = cells.column(RowSaturation::kMomentum);
-    const double* const weight = cells.column(RowSaturation::kWeight);
-    const std::size_t stride = cells.stride;
+    static_assert(sizeof(SpanSums) == kSpanSums * sizeof(double));
     for (std::uint32_t e = row_begin_[row]; e < row_begin_[row + 1]; ++e) {
         MappedSolid& solid = solids_[entries_[e].solid];
         const Span& span = solid.spans[entries_[e].span];
-        SpanSums t{};
-        for_cells(span, [&](int x, int done, int piece) {
-            const double* const eps = solid.fractions.data() + span.fractions + done;
-            const double rx0 = span.x0 + done + 0.5 - solid.sphere.centre[0];
-            for (int i = 0; i < piece; ++i) {
-                const double share = eps[i] / (sum[x + i] > 0 ? sum[x + i] : 1);
-                const double filled = share * epsilon[x + i];
-                const double rx = rx0 + i;
-                for (int d = 0; d < 3; ++d) {
-                    const double F = share * force[d * stride + x + i];
-                    t.F[d] += F;
-                    t.xF[d] += rx * F;
-                    t.P[d] += filled * momentum[d * stride + x + i];
-                }
-                t.xP[0] += rx * filled * momentum[stride + x + i];
-                t.xP[1] += rx * filled * momentum[2 * stride + x + i];
-                const double b = share * (1 - epsilon[x + i]) * weight[x + i];
-                t.b += b;
-                t.bxx += b * rx * rx;
-            }
-        });
-        solid.sums[entries_[e].span] = t;
+        if (span.n == 0) continue;
+        const double* const eps = solid.fractions.data() + span.fractions;
+        const double rx = span.x0 + 0.5 - solid.sphere.centre[0];
+        const int x0 = wrap(span.x0, n_[0]);
+        double sums[kSpanSums]{};
+        if (x0 + span.n <= n_[0]) add_answers<kBlock>(cells, x0, span.n, eps, rx, sums);
+        else
+            for (int i = 0; i < span.n; ++i) add_answers<1>(cells, wrap(span.x0 + i, n_[0]), 1, eps + i, rx + i, sums);
+        std::memcpy(&solid.sums[entries_[e].span], sums, sizeof(sums));
     }
     clear(cells);
 }

@@ -72,8 +72,8 @@ private:
         double F[3], xF[3], P[3], xP[2], b, bxx;
     };
     struct Span {
-        std::int32_t x0, n;       // not wrapped
-        std::uint32_t fractions;  // offset
+        std::int32_t x0, n;       // x0 not wrapped
+        std::uint32_t fractions;  // offset; padded with zeros to whole blocks
     };
     struct MappedSolid {
         LatticeSphere sphere;
@@ -89,8 +89,6 @@ private:
 
     void map(MappedSolid& solid, SphereFraction& fraction) const;
     void list_rows();
-    template <class Body>
-    void for_cells(const Span& span, Body body) const;
 
     std::array<int, 3> n_;
     std::array<bool, 3> periodic_;
