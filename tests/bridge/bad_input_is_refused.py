@@ -1,0 +1,207 @@
+import math
+
+from claims import *
+
+NAN = math.nan
+
+
+def refused_at_construction(text, **values):
+    message = check_raises(ValueError, text, lambda: box((12, 12, 12), **values))
+    check("LbmEngine" in message, "%r does not say whose value it is" % message)
+
+
+def values_out_of_range_are_refused_at_construction():
+    for name in ("dx", "density", "viscosity"):
+        for value in (-1e-3, 0.0, math.inf):
+            refused_at_construction("%s = " % name, **{name: value})
+    refused_at_construction("maxMach = ", maxMach=NAN)
+    refused_at_construction("magicParameter = -1", magicParameter=-1)
+    refused_at_construction("gravity = ", gravity=(0, 0, NAN))
+    refused_at_construction("acceleration = ", acceleration=(0, 0, math.inf))
+    refused_at_construction("upper = ", upper=(NAN, 1, 1))
+    refused_at_construction("tau = 0.5: must be between 0.505 and 20", tau=0.5)
+    refused_at_construction("tau = 25", tau=25)
+
+
+def the_box_is_a_whole_number_of_cells():
+    refused_at_construction("is 12.5 cells of dx = 0.001, must be a whole number", upper=(12e-3, 12.5e-3, 12e-3))
+    refused_at_construction("along z = -0.001: must be > 0", upper=(12e-3, 12e-3, 12e-3), lower=(0, 0, 13e-3))
+    check(box((12, 12, 12), upper=(0.1, 0.1, 0.16)).cells == (100, 100, 160), "decimal input is not whole")
+
+
+def choices_that_are_not_supported_are_refused():
+    refused_at_construction("only 'exact' is supported today", scheme="bounceBack")
+    refused_at_construction("only 'trt' is supported today", collision="bgk")
+    refused_at_construction("must be 'double' or 'single'", storage="half")
+    refused_at_construction("only False is supported today", lubrication=True)
+    refused_at_construction("only 0, the fluid in this process", ranks=2)
+
+
+def faces_must_make_sense():
+    six = ["noSlip"] * 6
+    refused_at_construction("boundary = list of 5: must have six names", boundary=six[:5])
+    refused_at_construction("boundary[xmin] = 'wall': must be 'periodic' or 'noSlip'", boundary=["wall"] + six[1:])
+    refused_at_construction("boundary[zmin] = 'noSlip': the opposite face is 'periodic'", boundary=six[:5] + ["periodic"])
+    refused_at_construction("boundaryVelocity = list of 1", boundaryVelocity=[(0, 0, 0)])
+    refused_at_construction(
+        "boundaryVelocity[ymin] = (0, 1, 0): a wall moves in its own plane",
+        boundaryVelocity=[(0, 0, 0)] * 2 + [(0, 1, 0)] + [(0, 0, 0)] * 3,
+    )
+    refused_at_construction(
+        "boundaryVelocity[ymin] = (1, 0, 0): a periodic face has no velocity",
+        boundary=PERIODIC,
+        boundaryVelocity=[(0, 0, 0)] * 2 + [(1, 0, 0)] + [(0, 0, 0)] * 3,
+    )
+
+
+def other_kinds_and_names_are_refused():
+    check_raises(TypeError, "LbmEngine.dx = small: must be a number, not str", lambda: box((12, 12, 12), dx="small"))
+    check_raises(TypeError, "LbmEngine.boundary = noSlip: must be a list", lambda: box((12, 12, 12), boundary="noSlip"))
+    check_raises(TypeError, "LbmEngine.upper = ", lambda: box((12, 12, 12), upper=(1, 2)))
+    check_raises(AttributeError, "No such attribute: visc", lambda: box((12, 12, 12), visc=1))
+    fluid = box((12, 12, 12))
+    check_raises(ValueError, "LbmEngine.dx = -1", lambda: setattr(fluid, "dx", -1))
+
+
+def refused_by_plan_and_run(text, fluid):
+    """Before the run as ValueError, from the run as RuntimeError, with the same words; YADE stays usable."""
+    check_raises(ValueError, text, fluid.plan)
+    check_raises(RuntimeError, text, lambda: O.run(3, True))
+    check(fluid.fluidSteps == 0, "fluid ran on")
+
+
+def missing_values_are_named():
+    from yadelbm import LbmEngine
+
+    O.bodies.append(sphere((0, 0, 0), 1))
+    for name in ("upper", "dx", "density", "viscosity"):
+        values = dict(FLUID, upper=(12e-3,) * 3)
+        del values[name]
+        fluid = LbmEngine(**values)
+        O.engines = engines(fluid)
+        refused_by_plan_and_run("LbmEngine.%s = " % name, fluid)
+
+
+def a_fluid_without_spheres_is_refused():
+    fluid = box((12, 12, 12))
+    O.engines = engines(fluid)
+    O.bodies.append(utils.box((0, 0, 0), (1, 1, 1)))
+    refused_by_plan_and_run("no body with a Sphere shape is selected", fluid)
+
+
+def unknown_ids_are_refused():
+    fluid = one_sphere(ids=[0, 7])
+    refused_by_plan_and_run("LbmEngine.ids: body 7 does not exist", fluid)
+
+
+def spheres_that_the_lattice_cannot_hold_are_refused():
+    for radius, text in (
+        (1.9e-3, "sphere 0: radius = 0.0019 is 1.9 cells, must be at least 2; dx <= 0.00095 would do"),
+        (NAN, "sphere 0: radius = nan: must be finite and > 0"),
+        (6.1e-3, "larger than the fluid's box"),
+    ):
+        O.reset()
+        fluid = one_sphere()
+        O.bodies[0].shape.radius = radius
+        O.engines = [fluid]  # YADE's collider would be the first to stumble over NaN
+        refused_by_plan_and_run(text, fluid)
+
+
+def a_position_that_is_not_a_number_is_refused():
+    fluid = one_sphere()
+    O.bodies[0].state.pos = (NAN, 0, 0)
+    O.engines = [fluid]
+    refused_by_plan_and_run("sphere 0: position, velocity and angular velocity must be finite", fluid)
+
+
+def a_second_fluid_is_refused():
+    fluid = one_sphere()
+    O.engines = O.engines + [box((12, 12, 12), label="other")]
+    refused_by_plan_and_run("two LbmEngines in O.engines", fluid)
+
+
+def a_time_step_that_is_no_number_is_refused():
+    fluid = one_sphere()
+    for dt in (0, NAN):  # YADE itself refuses a negative one
+        O.dt = dt
+        refused_by_plan_and_run("O.dt = ", fluid)
+
+
+def too_fast_for_the_lattice_is_refused_before_the_run():
+    fluid = one_sphere(tau=0.6)
+    O.bodies[0].state.vel = (100, 0, 0)
+    check_raises(ValueError, "Mach", fluid.plan)
+    check_raises(RuntimeError, "Mach", lambda: O.run(1, True))
+
+
+def too_fast_for_the_lattice_stops_the_run():
+    fluid = one_sphere(tau=0.6, boundary=PERIODIC)
+    O.run(10, True)
+    O.bodies[0].state.vel = (0.5, 0, 0)
+    message = check_raises(RuntimeError, "Mach", lambda: O.run(100, True))
+    steps = fluid.fluidSteps
+    check_raises(RuntimeError, "the fluid stopped earlier", lambda: O.run(100, True))
+    check(fluid.fluidSteps == steps, "a stopped fluid ran on")
+    check("\n" not in message.strip(), "message %r is more than a line" % message)
+
+
+def a_cell_that_is_not_the_box_is_refused():
+    fluid = one_sphere(boundary=PERIODIC)
+    O.periodic = True
+    O.cell.setBox(12e-3, 12e-3, 13e-3)
+    refused_by_plan_and_run("O.cell.hSize[2][2] = 0.013: must be 0.012", fluid)
+    O.cell.setBox(12e-3, 12e-3, 12e-3)
+    fluid.boundary = ["periodic"] * 4 + ["noSlip"] * 2
+    refused_by_plan_and_run("LbmEngine.boundary along z is 'noSlip' while the scene is periodic", fluid)
+    fluid.boundary = PERIODIC
+    O.run(3, True)
+    check(fluid.fluidSteps > 0, "fluid does not run once all is right")
+
+
+def attributes_are_fixed_once_the_fluid_exists():
+    fluid = one_sphere()
+    O.run(3, True)
+    for name, value in dict(dx=2e-3, upper=(1, 1, 1), gravity=(0, 0, -1), tau=1.0, maxMach=0.1).items():
+        check_raises(RuntimeError, "LbmEngine.%s cannot be changed any more" % name, lambda: setattr(fluid, name, value))
+    fluid.mask, fluid.ids, fluid.label = 1, [0], "still"
+
+
+def queries_need_a_fluid():
+    fluid = one_sphere()
+    for ask in (fluid.totalMass, fluid.averageVelocity, lambda: fluid.fluidForce(0), lambda: fluid.velocity):
+        check_raises(RuntimeError, "there is no fluid yet", ask)
+    O.run(3, True)
+    check_raises(ValueError, "body 5 was not in the fluid", lambda: fluid.fluidForce(5))
+    check_raises(ValueError, "", lambda: fluid.getVelocity((1, 1, 1)))
+    check_raises(RuntimeError, "", lambda: fluid.saveVtk("/no/such/folder/file.vti"))
+
+
+def what_is_likely_not_meant_is_said():
+    fluid = one_sphere(gravity=(0, 0, -9.81), boundary=PERIODIC)
+    O.engines = O.engines[:3] + [NewtonIntegrator(gravity=(0, 0, -9.8)), fluid]
+    plan = fluid.plan()
+    for text in ("damping = 0.2", "-9.8) and LbmEngine.gravity = (0, 0, -9.81) differ", "stands after", "is periodic and"):
+        check(any(text in warning for warning in plan.warnings), "no warning says %r: %s" % (text, plan.warnings))
+        check(text in str(plan), "report does not say %r" % text)
+
+
+prove(
+    values_out_of_range_are_refused_at_construction,
+    the_box_is_a_whole_number_of_cells,
+    choices_that_are_not_supported_are_refused,
+    faces_must_make_sense,
+    other_kinds_and_names_are_refused,
+    missing_values_are_named,
+    a_fluid_without_spheres_is_refused,
+    unknown_ids_are_refused,
+    spheres_that_the_lattice_cannot_hold_are_refused,
+    a_position_that_is_not_a_number_is_refused,
+    a_second_fluid_is_refused,
+    a_time_step_that_is_no_number_is_refused,
+    too_fast_for_the_lattice_is_refused_before_the_run,
+    too_fast_for_the_lattice_stops_the_run,
+    a_cell_that_is_not_the_box_is_refused,
+    attributes_are_fixed_once_the_fluid_exists,
+    queries_need_a_fluid,
+    what_is_likely_not_meant_is_said,
+)

@@ -1,0 +1,203 @@
+"""When the fluid steps, and with which bodies."""
+
+from claims import *
+
+TAU = 0.6
+STEP = fluid_step(TAU)
+DRIVE = dict(boundary=PERIODIC, acceleration=(0.01, 0, 0))
+
+
+def steps_of(fluid, count):
+    """Grain steps in which the fluid stepped, and how often."""
+    done = []
+    for i in range(count):
+        before = fluid.fluidSteps
+        O.run(1, True)
+        done.append(fluid.fluidSteps - before)
+    return done
+
+
+def whole_ratios_step_every_nth_time():
+    for n in (1, 2, 5):
+        O.reset()
+        fluid = one_sphere(tau=TAU, **DRIVE)
+        O.dt = STEP / n
+        check(steps_of(fluid, 4 * n) == ([1] + [0] * (n - 1)) * 4, "wrong rhythm for %d sub-cycles" % n)
+        check_close(fluid.stepsPerFluidStep, n, 0, "stepsPerFluidStep")
+
+
+def other_ratios_step_when_their_time_comes():
+    for ratio, rhythm in ((2.5, [1, 0, 1, 0, 0] * 2), (0.5, [2] * 5), (0.4, [3, 2] * 3), (4 / 3, [1, 1, 1, 0] * 3)):
+        O.reset()
+        fluid = one_sphere(tau=TAU, **DRIVE)
+        O.dt = STEP / ratio
+        found = steps_of(fluid, len(rhythm))
+        check(found == rhythm, "rhythm for a ratio of %g: %s" % (ratio, found))
+
+
+def planned_steps_are_whole_numbers_of_grain_steps():
+    for dt in (1e-5, 7e-5, 3.3e-4):
+        O.reset()
+        fluid = one_sphere(**DRIVE)
+        O.dt = dt
+        plan = fluid.plan()
+        O.run(1, True)
+        check(fluid.stepsPerFluidStep == round(fluid.stepsPerFluidStep) >= 1, "not whole: %r" % fluid.stepsPerFluidStep)
+        check(plan.cells == fluid.cells == (12, 12, 12), "cells of the plan: %s" % (plan.cells,))
+        check_close(fluid.fluidDt, plan.fluidDt, 1e-12 * plan.fluidDt, "plan and fluid differ")
+        check_close(fluid.fluidDt, fluid.stepsPerFluidStep * dt, 1e-12 * dt, "fluid step")
+
+
+def a_long_grain_step_is_divided():
+    fluid = one_sphere((4, 4, 4), radius=2e-3, **DRIVE)
+    O.dt = 1.0
+    plan = fluid.plan()
+    O.run(2, True)
+    check(fluid.fluidSteps == 2 * round(1 / plan.stepsPerFluidStep) > 2, "%d fluid steps in two" % fluid.fluidSteps)
+
+
+def the_two_clocks_stay_together():
+    fluid = one_sphere((4, 4, 4), radius=2e-3, tau=TAU, **DRIVE)
+    O.dt = STEP / 3
+    O.run(30000, True)
+    check(fluid.fluidSteps == 10000, "%d fluid steps in 30000 grain steps" % fluid.fluidSteps)
+
+
+def another_time_step_of_the_grains_is_followed():
+    fluid = one_sphere(tau=TAU, **DRIVE)
+    O.dt = STEP / 4
+    check(steps_of(fluid, 6) == [1, 0, 0, 0, 1, 0], "before")
+    O.dt = STEP / 2  # half a fluid step is still to go
+    check(steps_of(fluid, 5) == [0, 1, 0, 1, 0], "after doubling")
+    O.dt = STEP / 5  # a fluid step begins here
+    check(steps_of(fluid, 7) == [1, 0, 0, 0, 0, 1, 0], "after dividing")
+    lead = fluid.fluidTime - O.time
+    check(-1e-9 * STEP <= lead < STEP, "the fluid is %g steps ahead" % (lead / STEP))
+
+
+def a_time_stepper_behind_the_fluid_is_followed():
+    fluid = one_sphere(tau=TAU, **DRIVE)
+    O.engines = O.engines[:4] + [PyRunner(command="import math; O.dt = STEP * (0.3 + 0.2 * math.sin(O.iter))", iterPeriod=1)]
+    O.engines = O.engines + [NewtonIntegrator(damping=0)]
+    import builtins
+
+    builtins.STEP = STEP
+    O.dt = STEP / 4
+    for i in range(40):
+        O.run(5, True)
+        lead = fluid.fluidTime - O.time
+        # what the fluid expected of the present step and what the grains then did differ by 0.4 steps at most
+        check(-0.4 * STEP <= lead < 1.4 * STEP, "after %d steps the fluid is %g steps ahead" % (O.iter, lead / STEP))
+
+
+def a_dead_fluid_is_frozen_and_pushes_nothing():
+    fluid = one_sphere(tau=TAU, fixed=False, **DRIVE)
+    O.dt = STEP / 4
+    O.run(41, True)
+    check(O.forces.f(0, True)[0] > 0, "no load while the fluid is alive")
+    steps, velocity, speed = fluid.fluidSteps, fluid.velocity.copy(), O.bodies[0].state.vel[0]
+    fluid.dead = True
+    O.run(50, True)
+    check(O.forces.f(0, True) == Vector3.Zero and O.bodies[0].state.vel[0] == speed, "a dead fluid pushes")
+    check(fluid.fluidSteps == steps and (fluid.velocity == velocity).all(), "a dead fluid flows")
+    fluid.dead = False
+    check(steps_of(fluid, 8) == [0, 0, 0, 1, 0, 0, 0, 1], "the fluid does not go on from where it stood")
+
+
+def a_fluid_born_dead_starts_later():
+    fluid = one_sphere(tau=TAU, **DRIVE)
+    O.dt = STEP / 2
+    fluid.dead = True
+    O.run(7, True)
+    check(fluid.fluidSteps == 0, "a dead fluid started")
+    fluid.dead = False
+    check(steps_of(fluid, 4) == [1, 0, 1, 0], "wrong rhythm after a late start")
+
+
+def bodies_may_come_and_go():
+    fluid = one_sphere((12, 12, 24), radius=3e-3, tau=TAU, **DRIVE)
+    O.dt = STEP / 2
+    O.run(6, True)
+    added = O.bodies.append(sphere((6e-3, 6e-3, 4e-3), 2.5e-3))
+    O.run(6, True)
+    check(fluid.fluidForce(added)[0] > 0, "the added body feels nothing")
+    O.bodies.erase(0)
+    O.run(6, True)
+    check_raises(ValueError, "body 0 was not in the fluid", lambda: fluid.fluidForce(0))
+    volume = fluid.solidFraction.sum() * FLUID["dx"] ** 3
+    check_close(volume, 4 / 3 * math.pi * 2.5e-3**3, 1e-3 * volume, "solid volume after erasing")
+    O.bodies.erase(added)
+    O.run(6, True)
+    check_close(fluid.solidFraction.sum(), 0, 1e-12, "solid volume without bodies")
+
+
+def mask_and_ids_choose_bodies_at_any_time():
+    fluid = one_sphere((12, 12, 24), radius=3e-3, tau=TAU, **DRIVE)
+    O.bodies.append(sphere((6e-3, 6e-3, 4e-3), 2.5e-3, fixed=True, mask=4))
+    O.dt = STEP
+
+    def seen():
+        O.run(1, True)
+        found = []
+        for i in range(2):
+            try:
+                fluid.fluidForce(i)
+                found.append(i)
+            except ValueError:
+                pass
+        return found
+
+    check(seen() == [0, 1], "all")
+    fluid.mask = 4
+    check(seen() == [1], "mask")
+    fluid.mask = -1
+    fluid.ids = [0]
+    check(seen() == [0], "ids")
+    fluid.ids = []
+    check(seen() == [0, 1], "all again")
+
+
+def members_of_a_clump_are_in_the_fluid():
+    fluid = box((12, 12, 24), tau=TAU, **DRIVE)
+    clump, members = O.bodies.appendClumped([sphere((6e-3, 6e-3, z), 3e-3) for z in (10e-3, 13e-3)])
+    O.engines = engines(fluid)
+    O.dt = STEP / 2
+    O.run(40, True)
+    check_raises(ValueError, "was not in the fluid", lambda: fluid.fluidForce(clump))
+    check(all(fluid.fluidForce(i)[0] > 0 for i in members), "members feel nothing")
+    check(O.bodies[clump].state.vel[0] > 0, "the clump does not answer")
+
+
+def timing_shows_the_parts():
+    fluid = one_sphere(tau=TAU, **DRIVE)
+    O.dt = STEP / 2
+    O.run(2, True)
+    O.timingEnabled = True
+    O.run(200, True)
+    from yade import timing
+
+    O.timingEnabled = False
+    parts = [part[0] for part in fluid.timingDeltas.data]
+    check(parts == ["states in", "map", "exchange", "collide-stream", "loads", "loads out"], "parts: %s" % parts)
+    check(fluid.timingDeltas.data[3][2] == 100, "%d fluid steps counted" % fluid.timingDeltas.data[3][2])
+    inner, outer = sum(part[1] for part in fluid.timingDeltas.data), fluid.execTime
+    check(0.5 * outer < inner <= 1.02 * outer, "parts take %g of %g ns" % (inner, outer))
+    timing.reset()
+    O.run(5, True)
+
+
+prove(
+    whole_ratios_step_every_nth_time,
+    other_ratios_step_when_their_time_comes,
+    planned_steps_are_whole_numbers_of_grain_steps,
+    a_long_grain_step_is_divided,
+    the_two_clocks_stay_together,
+    another_time_step_of_the_grains_is_followed,
+    a_time_stepper_behind_the_fluid_is_followed,
+    a_dead_fluid_is_frozen_and_pushes_nothing,
+    a_fluid_born_dead_starts_later,
+    bodies_may_come_and_go,
+    mask_and_ids_choose_bodies_at_any_time,
+    members_of_a_clump_are_in_the_fluid,
+    timing_shows_the_parts,
+)

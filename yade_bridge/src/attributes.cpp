@@ -1,0 +1,84 @@
+#include "attributes.hpp"
+
+#include "conversions.hpp"
+
+#include <algorithm>
+
+namespace yadelbm {
+namespace {
+
+template <auto member>
+boost::python::object get(const Settings& settings)
+{
+    return to_python(settings.*member);
+}
+
+}  // namespace
+
+// get and set of one member under its Python name; a lambda per attribute carries the name into error messages
+#define YADELBM_ATTRIBUTE(name, member, live, doc)                                                                     \
+    Attribute                                                                                                          \
+    {                                                                                                                  \
+        name, doc, live, &get<&Settings::member>, [](Settings& settings, const boost::python::object& value) {         \
+            from_python("LbmEngine." name, value, settings.member);                                                    \
+        }                                                                                                              \
+    }
+
+const std::vector<Attribute>& attributes()
+{
+    static const std::vector<Attribute> table{
+        YADELBM_ATTRIBUTE("lower", lower, false, "Lower corner of the fluid's box [m]."),
+        YADELBM_ATTRIBUTE("upper", upper, false,
+                          "Upper corner of the fluid's box [m]; the box is a whole number of cells along every axis."),
+        YADELBM_ATTRIBUTE("dx", dx, false, "Cell size [m], > 0; a sphere's radius is at least two cells, better four."),
+        YADELBM_ATTRIBUTE("density", density, false, "Density of the fluid [kg/m3], > 0."),
+        YADELBM_ATTRIBUTE("viscosity", viscosity, false, "Dynamic viscosity [Pa s], > 0."),
+        YADELBM_ATTRIBUTE("gravity", gravity, false,
+                          "Gravity of the fluid [m/s2], default 0: gives the spheres their buoyancy, -density volume "
+                          "gravity. The hydrostatic pressure is left out of the fields. Use the integrator's value."),
+        YADELBM_ATTRIBUTE("acceleration", acceleration, false,
+                          "Uniform drive [m/s2], default 0: a mean pressure gradient of -density acceleration."),
+        YADELBM_ATTRIBUTE("boundary", boundary, false,
+                          "What the faces xmin, xmax, ymin, ymax, zmin, zmax of the box are: six of 'periodic' (both "
+                          "faces of a pair) and 'noSlip', default 'noSlip'. These are the walls of the fluid: boxes, "
+                          "walls and facets of the scene are not seen by it."),
+        YADELBM_ATTRIBUTE(
+            "boundaryVelocity", boundary_velocity, false,
+            "Velocities of the six faces [m/s], default 0: a noSlip face with one is a wall that moves in "
+            "its own plane."),
+        YADELBM_ATTRIBUTE("tau", tau, false,
+                          "Relaxation time [fluid steps], sets the fluid's time step (tau - 1/2) dx^2 density / (3 "
+                          "viscosity). NaN, the default: chosen so that this is a whole number of steps of O.dt."),
+        YADELBM_ATTRIBUTE("magicParameter", magic_parameter, false,
+                          "Lambda of the two relaxation times [-], > 0. NaN, the default: the scheme's own, 1/8."),
+        YADELBM_ATTRIBUTE("inertia", inertia, false,
+                          "False: Stokes flow, the quadratic terms are dropped. Default True."),
+        YADELBM_ATTRIBUTE("scheme", scheme, false, "Coupling of fluid and solids; 'exact' is supported today."),
+        YADELBM_ATTRIBUTE("collision", collision, false, "Collision operator; 'trt' is supported today."),
+        YADELBM_ATTRIBUTE("storage", storage, false, "How populations are kept: 'double' (default) or 'single'."),
+        YADELBM_ATTRIBUTE(
+            "mask", mask, true,
+            "Bodies are in the fluid if their mask shares a bit with this; 0 (default) or -1: all. May be "
+            "changed at any time."),
+        YADELBM_ATTRIBUTE("ids", ids, true,
+                          "Ids of the bodies in the fluid; empty (default): all. May be changed at any time."),
+        YADELBM_ATTRIBUTE("lubrication", lubrication, false,
+                          "Corrections for gaps that the lattice cannot resolve; False is supported today."),
+        YADELBM_ATTRIBUTE("maxMach", max_mach, false,
+                          "Largest Mach number on the lattice [-], default 0.2; a run that goes beyond it stops."),
+        YADELBM_ATTRIBUTE("ranks", ranks, false, "0, the fluid in this process, is supported today."),
+    };
+    return table;
+}
+
+#undef YADELBM_ATTRIBUTE
+
+const Attribute* find_attribute(const std::string& name)
+{
+    const auto& table = attributes();
+    const auto found =
+        std::find_if(table.begin(), table.end(), [&](const Attribute& attribute) { return name == attribute.name; });
+    return found == table.end() ? nullptr : &*found;
+}
+
+}  // namespace yadelbm

@@ -1,0 +1,121 @@
+#include "conversions.hpp"
+
+#include <lib/base/Math.hpp>
+
+namespace yadelbm {
+namespace bp = boost::python;
+namespace {
+
+[[noreturn]] void type_error(const char* name, const bp::object& value, const char* wanted)
+{
+    const std::string got = bp::extract<std::string>(bp::str(value));
+    const std::string type = bp::extract<std::string>(value.attr("__class__").attr("__name__"));
+    PyErr_SetString(PyExc_TypeError,
+                    (std::string(name) + " = " + got + ": must be " + wanted + ", not " + type).c_str());
+    bp::throw_error_already_set();
+    throw;  // never reached
+}
+
+template <class T>
+void extract_as(const char* name, const bp::object& value, const char* wanted, T& result)
+{
+    const bp::extract<T> extracted(value);
+    if (!extracted.check()) type_error(name, value, wanted);
+    result = extracted();
+}
+
+template <class T>
+void from_sequence(const char* name, const bp::object& value, const char* wanted, std::vector<T>& result)
+{
+    // a string is a sequence too, of letters
+    if (!PySequence_Check(value.ptr()) || PyUnicode_Check(value.ptr())) type_error(name, value, wanted);
+    result.resize(bp::len(value));
+    for (std::size_t i = 0; i < result.size(); ++i) from_python(name, value[i], result[i]);
+}
+
+template <class T>
+bp::object to_list(const std::vector<T>& values)
+{
+    bp::list list;
+    for (const T& value : values) list.append(to_python(value));
+    return list;
+}
+
+}  // namespace
+
+void from_python(const char* name, const bp::object& value, double& result)
+{
+    extract_as(name, value, "a number", result);
+}
+
+void from_python(const char* name, const bp::object& value, int& result)
+{
+    extract_as(name, value, "a whole number", result);
+}
+
+void from_python(const char* name, const bp::object& value, bool& result)
+{
+    extract_as(name, value, "True or False", result);
+}
+
+void from_python(const char* name, const bp::object& value, std::string& result)
+{
+    extract_as(name, value, "a string", result);
+}
+
+void from_python(const char* name, const bp::object& value, lbm::Vec3& result)
+{
+    yade::Vector3r vector;
+    extract_as(name, value, "three numbers", vector);
+    result = {vector[0], vector[1], vector[2]};
+}
+
+void from_python(const char* name, const bp::object& value, std::vector<int>& result)
+{
+    from_sequence(name, value, "a list of whole numbers", result);
+}
+
+void from_python(const char* name, const bp::object& value, std::vector<std::string>& result)
+{
+    from_sequence(name, value, "a list of strings", result);
+}
+
+void from_python(const char* name, const bp::object& value, std::vector<lbm::Vec3>& result)
+{
+    from_sequence(name, value, "a list of vectors", result);
+}
+
+bp::object to_python(double value) { return bp::object(value); }
+
+bp::object to_python(int value) { return bp::object(value); }
+
+bp::object to_python(bool value) { return bp::object(value); }
+
+bp::object to_python(const std::string& value) { return bp::object(value); }
+
+bp::object to_python(const lbm::Vec3& v) { return bp::object(yade::Vector3r(v[0], v[1], v[2])); }
+
+bp::object to_python(const lbm::Mat3& m)
+{
+    yade::Matrix3r matrix;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) matrix(i, j) = m[i][j];
+    return bp::object(matrix);
+}
+
+bp::object to_python(const std::vector<int>& values) { return to_list(values); }
+
+bp::object to_python(const std::vector<std::string>& values) { return to_list(values); }
+
+bp::object to_python(const std::vector<lbm::Vec3>& values) { return to_list(values); }
+
+bp::object numpy_array(const std::vector<double>& values, const std::vector<int>& shape)
+{
+    const auto* bytes = reinterpret_cast<const char*>(values.data());
+    const bp::object buffer(
+        bp::handle<>(PyByteArray_FromStringAndSize(bytes, static_cast<Py_ssize_t>(values.size() * sizeof(double)))));
+    // a bytearray is writable and kept alive by the array on it
+    return bp::import("numpy").attr("frombuffer")(buffer, "float64").attr("reshape")(bp::tuple(to_python(shape)));
+}
+
+}  // namespace yadelbm

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "lbm/solid.hpp"
+
+#include <vector>
+
+namespace yade {
+class Scene;
+}
+
+namespace yadelbm {
+
+/// Which bodies of a scene are solids of the fluid: those with a Sphere shape that pass both conditions.
+struct Selection {
+    int mask = 0;                 ///< a body passes if it shares a bit; 0 or -1: all
+    const std::vector<int>& ids;  ///< bodies to take; empty: all
+};
+
+/**
+ * The selected spheres as solids, in ascending order of their ids.
+ *
+ * Members of clumps count as they are, with the velocity that YADE gives them; clumps themselves have no sphere. A body
+ * that cannot answer to forces (blocked, or without mass) has infinite mass, likewise for rotation. Erased bodies, other
+ * shapes and ids that do not exist are passed over.
+ * @param lead  positions are taken this much later, along the velocity [s]
+ */
+void read_solids(const yade::Scene& scene, const Selection& selection, double lead, std::vector<lbm::Solid>& solids);
+
+}  // namespace yadelbm

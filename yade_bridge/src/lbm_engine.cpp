@@ -1,0 +1,166 @@
+#include "lbm_engine.hpp"
+
+#include "grains.hpp"
+#include "planning.hpp"
+#include "text.hpp"
+
+#include "lbm/errors.hpp"
+
+#include <core/Omega.hpp>
+#include <core/Scene.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+namespace yadelbm {
+namespace {
+
+constexpr const char* kPartNames[] = {"states in", "map", "exchange", "collide-stream", "loads", "loads out"};
+
+class Stopwatch {
+public:
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
+
+LbmEngine::LbmEngine()
+{
+    timingDeltas = yade::shared_ptr<yade::TimingDeltas>(new yade::TimingDeltas);  // or yade.timing shows no parts
+}
+
+LbmEngine::~LbmEngine() = default;
+
+void LbmEngine::action()
+{
+    try {
+        advance();
+    } catch (...) {
+        // O.run(n, True) starts the thread of this step and then waits for it; if the step has failed before the wait
+        // begins, YADE overlooks the error and returns as if all were well
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        throw;
+    }
+}
+
+void LbmEngine::advance()
+{
+    const std::lock_guard lock(mutex_);
+    if (!failure_.empty()) throw lbm::RunError("LbmEngine: the fluid stopped earlier: " + failure_);
+    if (!fluid_) start();
+    bool spread = follow_grains();
+    for (; schedule_.fluid_step_due(); spread = true) step_fluid();
+
+    const Stopwatch out;
+    if (spread) {
+        const auto grain_steps = std::max<std::int64_t>(1, schedule_.grain_steps_to_next());
+        held_.spread_over(static_cast<double>(grain_steps) * schedule_.grain_dt());
+    }
+    held_.write(*scene);
+    account(kLoadsOut, out.seconds(), 1);
+}
+
+void LbmEngine::start()
+{
+    read_solids(*scene, {settings_.mask, settings_.ids}, 0, solids_);
+    check_scene(*scene, settings_, *this, solids_);
+    const lbm::Plan plan = plan_for_scene(*scene, settings_, solids_, settings_.tau);
+    auto fluid = std::make_unique<lbm::Fluid>(fluid_config(settings_, plan.tau, std::max(0, ompThreads)));
+    schedule_ = Schedule(scene->dt, fluid->dt());
+    fluid_ = std::move(fluid);
+}
+
+/// Brings the schedule and the deliveries to the start of this grain step; true if the rest has to be spread anew.
+bool LbmEngine::follow_grains()
+{
+    // the same step again happens after an error; steps without us (dead, or out of O.engines) are not the fluid's
+    if (last_iter_ >= 0 && scene->iter != last_iter_) {
+        const double elapsed = length_of_last_grain_step(*scene);
+        held_.delivered(elapsed);
+        if (elapsed == schedule_.grain_dt()) schedule_.grains_stepped();
+        else schedule_.grains_stepped_by(elapsed);
+    }
+    last_iter_ = scene->iter;
+    last_time_ = scene->time;
+    if (scene->dt == schedule_.grain_dt()) return false;
+    if (!(std::isfinite(scene->dt) && scene->dt > 0))
+        throw lbm::ConfigError("O.dt = " + text(scene->dt) + ": must be finite and > 0 [s]");
+    schedule_.change_grain_dt(scene->dt);
+    return true;
+}
+
+/// A time stepper that stands behind the fluid changes O.dt after the loads were written: ask how far the scene's time
+/// went. Time is a sum and carries round-off, so known lengths are preferred to the difference.
+double LbmEngine::length_of_last_grain_step(const yade::Scene& now) const
+{
+    const double planned = schedule_.grain_dt();
+    if (now.iter != last_iter_ + 1) return planned;
+    const double elapsed = now.time - last_time_;
+    const double round_off = 4e-16 * std::abs(now.time);
+    for (double known : {planned, now.dt})
+        if (std::abs(elapsed - known) <= 1e-6 * known + round_off) return known;
+    return elapsed > 0 ? elapsed : planned;
+}
+
+void LbmEngine::step_fluid()
+{
+    check_cell(*scene, settings_);
+    const Stopwatch in;
+    read_solids(*scene, {settings_.mask, settings_.ids}, schedule_.lead(), solids_);
+    account(kStatesIn, in.seconds(), 1);
+
+    const lbm::StepTimes before = fluid_->times();
+    fluid_->place_solids(solids_);
+    try {
+        fluid_->step();
+    } catch (const std::exception& error) {
+        failure_ = error.what();
+        throw;
+    }
+    const lbm::StepTimes after = fluid_->times();
+    account(kMap, after.map - before.map, 1);
+    account(kExchange, after.exchange - before.exchange, 1);
+    account(kCollideStream, after.collide_stream - before.collide_stream, 1);
+    account(kLoads, after.loads - before.loads, 1);
+
+    const Stopwatch out;
+    held_.add(solids_, fluid_->loads(), fluid_->dt());
+    schedule_.fluid_stepped();
+    account(kLoadsOut, out.seconds(), 0);
+}
+
+void LbmEngine::account(Part part, double seconds, long executions)
+{
+    if (!yade::TimingInfo::enabled || !timingDeltas) return;
+    if (timingDeltas->data.size() != kParts) {  // also after yade.timing.reset()
+        timingDeltas->data.assign(kParts, yade::TimingInfo());
+        timingDeltas->labels.assign(std::begin(kPartNames), std::end(kPartNames));
+    }
+    timingDeltas->data[part].nExec += executions;
+    timingDeltas->data[part].nsec += static_cast<yade::TimingInfo::delta>(std::max(0.0, seconds) * 1e9);
+}
+
+FluidPlan LbmEngine::plan() const
+{
+    const std::lock_guard lock(mutex_);
+    const yade::Scene& now = *Singleton<yade::Omega>::instance().getScene();
+    std::vector<lbm::Solid> solids;
+    read_solids(now, {settings_.mask, settings_.ids}, 0, solids);
+    check_scene(now, settings_, *this, solids);
+    FluidPlan plan{plan_for_scene(now, settings_, solids, fluid_ ? fluid_->config().tau : settings_.tau),
+                   fluid_cells()};
+    for (const std::string& warning : scene_warnings(now, settings_, *this)) {
+        plan.warnings.push_back(warning);
+        if (!plan.report.empty() && plan.report.back() != '\n') plan.report += '\n';
+        plan.report += "  warning: " + warning + '\n';
+    }
+    return plan;
+}
+
+}  // namespace yadelbm

@@ -1,0 +1,113 @@
+#include "planning.hpp"
+
+#include "lbm_engine.hpp"
+#include "speed_estimate.hpp"
+#include "text.hpp"
+
+#include "lbm/errors.hpp"
+
+#include <core/Scene.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace yadelbm {
+namespace {
+
+constexpr double kSameLength = 1e-6;  // relative, as for the whole number of cells
+
+void check_single(const yade::Scene& scene, const LbmEngine& engine)
+{
+    for (const auto& other : scene.engines)
+        if (other && other.get() != &engine && dynamic_cast<const LbmEngine*>(other.get()))
+            throw lbm::ConfigError("two LbmEngines in O.engines: a scene has one fluid; remove one of them");
+}
+
+void check_ids(const Settings& s, const std::vector<lbm::Solid>& solids)
+{
+    for (int id : s.ids)
+        if (std::none_of(solids.begin(), solids.end(), [id](const lbm::Solid& solid) { return solid.id == id; }))
+            throw lbm::ConfigError("LbmEngine.ids: body " + std::to_string(id) +
+                                   " does not exist, has no Sphere shape or is excluded by mask");
+    if (solids.empty())
+        throw lbm::ConfigError("LbmEngine: no body with a Sphere shape is selected (mask = " + std::to_string(s.mask) +
+                               "): append spheres to O.bodies first, or change mask");
+}
+
+void check_spheres(const Settings& s, const std::vector<lbm::Solid>& solids)
+{
+    for (const lbm::Solid& solid : solids) {
+        const std::string name = "sphere " + std::to_string(solid.id) + ": radius = " + text(solid.radius);
+        if (!(std::isfinite(solid.radius) && solid.radius > 0))
+            throw lbm::ConfigError(name + ": must be finite and > 0 [m]");
+        if (solid.radius < lbm::kMinRadiusInCells * s.dx * (1 - kSameLength))
+            throw lbm::ConfigError(name + " is " + text(solid.radius / s.dx) + " cells, must be at least " +
+                                   text(lbm::kMinRadiusInCells) +
+                                   "; dx <= " + text(solid.radius / lbm::kMinRadiusInCells) + " would do");
+        for (int axis = 0; axis < 3; ++axis) {
+            const double length = s.upper[axis] - s.lower[axis];
+            if (2 * solid.radius > length * (1 + kSameLength))
+                throw lbm::ConfigError(name + ": the sphere is larger than the fluid's box, " + text(length) +
+                                       " along " + "xyz"[axis]);
+        }
+        for (int axis = 0; axis < 3; ++axis)
+            if (!std::isfinite(solid.position[axis] + solid.velocity[axis] + solid.angular_velocity[axis]))
+                throw lbm::ConfigError("sphere " + std::to_string(solid.id) +
+                                       ": position, velocity and angular velocity must be finite");
+    }
+}
+
+}  // namespace
+
+void check_cell(const yade::Scene& scene, const Settings& s)
+{
+    if (!scene.isPeriodic) return;
+    const yade::Matrix3r& cell = scene.cell->hSize;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            const double wanted = i == j ? s.upper[i] - s.lower[i] : 0;
+            if (std::abs(cell(i, j) - wanted) > kSameLength * (s.upper[i] - s.lower[i]))
+                throw lbm::ConfigError("O.cell.hSize[" + std::to_string(i) + "][" + std::to_string(j) +
+                                       "] = " + text(cell(i, j)) + ": must be " + text(wanted) +
+                                       " to match the fluid's box; a deforming cell is not supported today");
+        }
+    for (int axis = 0; axis < 3; ++axis)
+        if (s.boundary[2 * axis] != "periodic")
+            throw lbm::ConfigError(std::string("LbmEngine.boundary along ") + "xyz"[axis] + " is '" +
+                                   s.boundary[2 * axis] +
+                                   "' while the scene is periodic: use 'periodic' for all faces");
+}
+
+void check_scene(const yade::Scene& scene, const Settings& s, const LbmEngine& engine,
+                 const std::vector<lbm::Solid>& solids)
+{
+    check(s, true);
+    if (!(std::isfinite(scene.dt) && scene.dt > 0))
+        throw lbm::ConfigError("O.dt = " + text(scene.dt) + ": must be finite and > 0 [s]");
+    check_single(scene, engine);
+    check_cell(scene, s);
+    check_ids(s, solids);
+    check_spheres(s, solids);
+}
+
+lbm::Plan plan_for_scene(const yade::Scene& scene, const Settings& s, const std::vector<lbm::Solid>& solids, double tau)
+{
+    lbm::PlanRequest request;
+    request.cells = cells(s);
+    request.dx = s.dx;
+    request.density = s.density;
+    request.viscosity = s.viscosity;
+    request.grain_dt = scene.dt;
+    request.tau = tau;
+    request.max_mach = s.max_mach;
+    request.speed = expected_speed(s, solids);
+    double radii = 0;
+    for (const lbm::Solid& solid : solids) {
+        request.smallest_radius = std::min(request.smallest_radius, solid.radius);
+        radii += solid.radius;
+    }
+    if (!solids.empty()) request.mean_diameter = 2 * radii / static_cast<double>(solids.size());
+    return lbm::plan_time_step(request);
+}
+
+}  // namespace yadelbm

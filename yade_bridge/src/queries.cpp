@@ -1,0 +1,118 @@
+#include "lbm_engine.hpp"
+
+#include <core/Omega.hpp>
+#include <core/Scene.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace yadelbm {
+
+const lbm::Fluid& LbmEngine::fluid(const char* asked) const
+{
+    if (!fluid_)
+        throw std::runtime_error(std::string("LbmEngine.") + asked +
+                                 ": there is no fluid yet; it comes into being in the first step, run O.step() first");
+    return *fluid_;
+}
+
+lbm::SolidLoad LbmEngine::load_on(int id) const
+{
+    const std::lock_guard lock(mutex_);
+    const auto& loads = fluid("fluidForce, fluidTorque, stresslet").loads();
+    const auto found = std::lower_bound(solids_.begin(), solids_.end(), id,
+                                        [](const lbm::Solid& solid, int wanted) { return solid.id < wanted; });
+    const auto index = static_cast<std::size_t>(found - solids_.begin());
+    if (found == solids_.end() || found->id != id || index >= loads.size())
+        throw std::invalid_argument("body " + std::to_string(id) + " was not in the fluid at its last step");
+    return loads[index];
+}
+
+lbm::Vec3 LbmEngine::velocity_at(const lbm::Vec3& position) const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid("getVelocity").velocity_at(position);
+}
+
+double LbmEngine::pressure_at(const lbm::Vec3& position) const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid("getPorePressure").pressure_at(position);
+}
+
+lbm::Vec3 LbmEngine::average_velocity() const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid("averageVelocity").average_velocity();
+}
+
+double LbmEngine::permeability() const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid("permeability").permeability();
+}
+
+double LbmEngine::total_mass() const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid("totalMass").total_mass();
+}
+
+lbm::Vec3 LbmEngine::total_momentum() const
+{
+    const std::lock_guard lock(mutex_);
+    lbm::Vec3 momentum = fluid("totalMomentum").total_momentum();
+    // between steps the grains already had the last one under the current forces
+    const yade::Scene& now = *Singleton<yade::Omega>::instance().getScene();
+    const double elapsed = now.iter != last_iter_ ? length_of_last_grain_step(now) : 0;
+    const lbm::Vec3 on_its_way = held_.undelivered(elapsed);
+    for (int d = 0; d < 3; ++d) momentum[d] += on_its_way[d];
+    return momentum;
+}
+
+double LbmEngine::kinetic_energy() const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid("kineticEnergy").kinetic_energy();
+}
+
+std::vector<double> LbmEngine::velocity_field() const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid("velocity").velocity_field();
+}
+
+std::vector<double> LbmEngine::pressure_field() const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid("pressure").pressure_field();
+}
+
+std::vector<double> LbmEngine::solid_fraction_field() const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid("solidFraction").solid_fraction_field();
+}
+
+void LbmEngine::save_vtk(const std::string& path) const
+{
+    const std::lock_guard lock(mutex_);
+    fluid("saveVtk").save_vtk(path);
+}
+
+double LbmEngine::fluid_dt() const { return fluid_ ? fluid_->dt() : std::numeric_limits<double>::quiet_NaN(); }
+
+double LbmEngine::steps_per_fluid_step() const
+{
+    const double ratio = fluid_dt() / Singleton<yade::Omega>::instance().getScene()->dt;
+    const double whole = std::round(ratio);
+    return std::abs(ratio - whole) < 1e-9 * whole ? whole : ratio;  // planned whole, up to round-off
+}
+
+std::int64_t LbmEngine::fluid_steps() const { return fluid_ ? fluid_->steps() : 0; }
+
+double LbmEngine::fluid_time() const { return fluid_ ? fluid_->time() : 0.0; }
+
+}  // namespace yadelbm

@@ -1,0 +1,162 @@
+#include "settings.hpp"
+
+#include "text.hpp"
+
+#include "lbm/errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace yadelbm {
+namespace {
+
+constexpr double kWholeCells = 1e-6;  // relative; decimal input such as 0.16 / 1e-3 is off by 1e-14
+constexpr const char* kFaceNames[6] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
+
+[[noreturn]] void refuse(const std::string& what, const std::string& value, const std::string& rule)
+{
+    throw lbm::ConfigError("LbmEngine." + what + " = " + value + ": " + rule);
+}
+
+void require_positive(const char* name, double value, const char* unit, bool complete)
+{
+    if (std::isnan(value) && !complete) return;
+    if (!(std::isfinite(value) && value > 0))
+        refuse(name, text(value), std::string("must be finite and > 0 [") + unit + "]");
+}
+
+void require_finite(const std::string& name, const lbm::Vec3& v, const char* unit)
+{
+    for (double component : v)
+        if (!std::isfinite(component)) refuse(name, text(v), std::string("must be finite [") + unit + "]");
+}
+
+void require_one_of(const char* name, const std::string& value, const char* supported)
+{
+    if (value != supported) refuse(name, "'" + value + "'", std::string("only '") + supported + "' is supported today");
+}
+
+std::string where(int face) { return std::string("[") + kFaceNames[face] + "]"; }
+
+bool upper_unset(const Settings& s)
+{
+    return std::isnan(s.upper[0]) && std::isnan(s.upper[1]) && std::isnan(s.upper[2]);
+}
+
+void check_numbers(const Settings& s, bool complete)
+{
+    require_positive("dx", s.dx, "m", complete);
+    require_positive("density", s.density, "kg/m3", complete);
+    require_positive("viscosity", s.viscosity, "Pa s, dynamic", complete);
+    require_positive("maxMach", s.max_mach, "-", true);
+    require_positive("magicParameter", s.magic_parameter, "-; NaN: the scheme's own", false);
+    require_finite("lower", s.lower, "m");
+    require_finite("gravity", s.gravity, "m/s2");
+    require_finite("acceleration", s.acceleration, "m/s2");
+    if (complete || !upper_unset(s)) require_finite("upper", s.upper, "m");
+    if (!std::isnan(s.tau) && !(s.tau >= lbm::kMinTau && s.tau <= lbm::kMaxTau))
+        refuse("tau", text(s.tau),
+               "must be between " + text(lbm::kMinTau) + " and " + text(lbm::kMaxTau) + ", or NaN to have it chosen");
+}
+
+void check_choices(const Settings& s)
+{
+    require_one_of("scheme", s.scheme, "exact");
+    require_one_of("collision", s.collision, "trt");
+    if (s.storage != "double" && s.storage != "single")
+        refuse("storage", "'" + s.storage + "'", "must be 'double' or 'single'");
+    if (s.lubrication)
+        refuse("lubrication", "True", "only False is supported today; YADE's own lubrication laws may be used");
+    if (s.ranks != 0) refuse("ranks", std::to_string(s.ranks), "only 0, the fluid in this process, is supported today");
+}
+
+void check_faces(const Settings& s)
+{
+    if (s.boundary.size() != 6)
+        refuse("boundary", "list of " + std::to_string(s.boundary.size()),
+               "must have six names: xmin, xmax, ymin, ymax, zmin, zmax");
+    if (s.boundary_velocity.size() != 6)
+        refuse("boundaryVelocity", "list of " + std::to_string(s.boundary_velocity.size()),
+               "must have six vectors: xmin, xmax, ymin, ymax, zmin, zmax");
+    for (int face = 0; face < 6; ++face) {
+        const std::string& type = s.boundary[face];
+        const lbm::Vec3& velocity = s.boundary_velocity[face];
+        if (type != "periodic" && type != "noSlip")
+            refuse("boundary" + where(face), "'" + type + "'",
+                   "must be 'periodic' or 'noSlip', the types supported today");
+        if ((type == "periodic") != (s.boundary[face ^ 1] == "periodic"))
+            refuse("boundary" + where(face), "'" + type + "'",
+                   "the opposite face is '" + s.boundary[face ^ 1] + "': both faces of a pair are periodic or none");
+        require_finite("boundaryVelocity" + where(face), velocity, "m/s");
+        if (velocity[face / 2] != 0)
+            refuse("boundaryVelocity" + where(face), text(velocity), "a wall moves in its own plane only");
+    }
+}
+
+}  // namespace
+
+void check_values(const Settings& s)
+{
+    check_numbers(s, false);
+    check_choices(s);
+    check_faces(s);
+}
+
+void check(const Settings& s, bool complete)
+{
+    check_numbers(s, complete);
+    check_choices(s);
+    check_faces(s);
+    for (int face = 0; face < 6; ++face)
+        if (s.boundary[face] == "periodic" && s.boundary_velocity[face] != lbm::Vec3{})
+            refuse("boundaryVelocity" + where(face), text(s.boundary_velocity[face]),
+                   "a periodic face has no velocity; use 'noSlip' or zero");
+    if (complete || !(upper_unset(s) || std::isnan(s.dx))) (void)cells(s);
+}
+
+std::array<int, 3> cells(const Settings& s)
+{
+    std::array<int, 3> result{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string name = std::string("upper - lower along ") + "xyz"[axis];
+        const double length = s.upper[axis] - s.lower[axis];
+        const double count = length / s.dx;
+        if (!(length > 0)) refuse(name, text(length), "must be > 0 [m]");
+        if (!(count < 1e6))
+            refuse(name, text(length),
+                   "is " + text(count) + " cells of dx = " + text(s.dx) + ", at most 1e6 are possible");
+        const double whole = std::max(1.0, std::round(count));
+        if (std::abs(count - whole) > kWholeCells * whole)
+            refuse(name, text(length),
+                   "is " + text(count) + " cells of dx = " + text(s.dx) + ", must be a whole number; dx = " +
+                       text(length / whole) + " or a length of " + text(whole * s.dx) + " would do");
+        result[axis] = static_cast<int>(whole);
+    }
+    return result;
+}
+
+lbm::FluidConfig fluid_config(const Settings& s, double tau, int threads)
+{
+    check(s, true);
+    lbm::FluidConfig config;
+    config.lower = s.lower;
+    config.cells = cells(s);
+    config.dx = s.dx;
+    config.density = s.density;
+    config.viscosity = s.viscosity;
+    config.tau = tau;
+    config.magic_parameter = s.magic_parameter;
+    config.gravity = s.gravity;
+    config.acceleration = s.acceleration;
+    for (int face = 0; face < 6; ++face) {
+        config.faces[face].type = s.boundary[face] == "periodic" ? lbm::FaceType::periodic : lbm::FaceType::no_slip;
+        config.faces[face].velocity = s.boundary_velocity[face];
+    }
+    config.inertia = s.inertia;
+    config.storage = s.storage == "single" ? lbm::Storage::single_precision : lbm::Storage::double_precision;
+    config.max_mach = s.max_mach;
+    config.threads = threads;
+    return config;
+}
+
+}  // namespace yadelbm

@@ -1,0 +1,94 @@
+#include "speed_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace yadelbm {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+double norm(const lbm::Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+double sphere_volume(double radius) { return 4.0 / 3.0 * kPi * radius * radius * radius; }
+
+/// Share of a lone sphere's speed that is left at solid fraction c: cubic array, dilute.
+/// @see Hasimoto (1959), J. Fluid Mech. 5, 317
+double hindrance(double c)
+{
+    c = std::min(c, 0.2);
+    return 1 - 1.7601 * std::cbrt(c) + c - 1.5593 * c * c;
+}
+
+/// Under the uniform drive: the least of what walls (Poiseuille), fixed grains taken as an array (Stokes, Hasimoto) and
+/// taken as a bed (Carman-Kozeny) allow; each alone is too high where another one holds the fluid back.
+double driven_speed(const Settings& s, const std::vector<lbm::Solid>& solids)
+{
+    const double drive = norm(s.acceleration);
+    if (drive == 0) return 0;
+    const double nu = s.viscosity / s.density;
+    double volume = 1, speed = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const double length = s.upper[axis] - s.lower[axis];
+        volume *= length;
+        const double along = std::abs(s.acceleration[axis]) / drive;
+        if (s.boundary[2 * axis] == "noSlip" && along < 0.99)
+            speed = std::min(speed, drive * length * length / (8 * nu));
+    }
+    double diameters = 0, occupied = 0;
+    for (const lbm::Solid& solid : solids)
+        if (!std::isfinite(solid.mass)) {
+            diameters += 2 * solid.radius;
+            occupied += sphere_volume(solid.radius);
+        }
+    const double solid_fraction = std::min(occupied / volume, 0.75);
+    if (diameters > 0 && solid_fraction > 0) {
+        speed = std::min(speed, drive * volume / (3 * kPi * nu * diameters) * hindrance(solid_fraction));
+        double squares = 0;
+        for (const lbm::Solid& solid : solids)
+            if (!std::isfinite(solid.mass)) squares += 4 * kPi * solid.radius * solid.radius;
+        const double sauter = 6 * occupied / squares, pores = 1 - solid_fraction;
+        // permeability over porosity, and twice the mean for the fastest pores
+        speed =
+            std::min(speed, 2 * drive * sauter * sauter * pores * pores / (180 * solid_fraction * solid_fraction * nu));
+    }
+    return std::isfinite(speed) ? speed : 0;
+}
+
+}  // namespace
+
+double settling_speed(double diameter, double density_difference, double gravity, double density, double viscosity)
+{
+    const double weight = std::abs(density_difference) * gravity * kPi / 6 * diameter * diameter * diameter;
+    if (!(weight > 0)) return 0;
+    const auto drag = [&](double speed) {
+        const double reynolds = density * speed * diameter / viscosity;
+        const double stokes = 3 * kPi * viscosity * diameter * speed;
+        if (reynolds < 1000) return stokes * (1 + 0.15 * std::pow(reynolds, 0.687));
+        return std::max(0.44 * kPi / 8 * density * diameter * diameter * speed * speed,
+                        3 * kPi * viscosity * diameter * speed);
+    };
+    double low = 0, high = weight / (3 * kPi * viscosity * diameter);  // Stokes: the drag is never less
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (drag(middle) < weight ? low : high) = middle;
+    }
+    return high;
+}
+
+double expected_speed(const Settings& s, const std::vector<lbm::Solid>& solids)
+{
+    double speed = driven_speed(s, solids);
+    for (const lbm::Vec3& wall : s.boundary_velocity) speed = std::max(speed, norm(wall));
+    const double gravity = norm(s.gravity);
+    for (const lbm::Solid& solid : solids) {
+        speed = std::max(speed, norm(solid.velocity) + norm(solid.angular_velocity) * solid.radius);
+        if (std::isfinite(solid.mass)) {
+            const double difference = solid.mass / sphere_volume(solid.radius) - s.density;
+            speed = std::max(speed, settling_speed(2 * solid.radius, difference, gravity, s.density, s.viscosity));
+        }
+    }
+    return speed;
+}
+
+}  // namespace yadelbm

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "lbm/solid.hpp"
+
+#include <cstdio>
+#include <string>
+
+namespace yadelbm {
+
+/// A number as a user would write it.
+inline std::string text(double value)
+{
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.10g", value);
+    return buffer;
+}
+
+inline std::string text(const lbm::Vec3& v) { return "(" + text(v[0]) + ", " + text(v[1]) + ", " + text(v[2]) + ")"; }
+
+}  // namespace yadelbm
