@@ -1,7 +1,10 @@
 """Claims about the bridge, checked inside YADE. A test is a script of functions named after what they claim."""
 
 import math
+import os
 import sys
+
+REFERENCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "reference")  # before yade brings its own __file__
 
 from yade import *
 from yade.utils import sphere

@@ -1,0 +1,161 @@
+#!/usr/bin/python3
+"""Claims about `lbm run`: results, messages and exit status, as a user of the program sees them."""
+
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = os.environ.get("LBM_PROGRAM", "build/bin/lbm")
+REFERENCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "reference")
+
+DX, DENSITY, VISCOSITY, DRIVE = 1e-4, 1000.0, 1e-3, 1e-6
+
+
+def run(case):
+    """Exit status, result (None without one) and messages of a case given as an object or as text."""
+    text = case if isinstance(case, str) else json.dumps(case)
+    done = subprocess.run([PROGRAM, "run", "-"], input=text, capture_output=True, text=True, timeout=300)
+    return done.returncode, json.loads(done.stdout) if done.stdout else None, done.stderr
+
+
+def array(n=8, c=0.125, **more):
+    """A simple cubic array of spheres in Stokes flow."""
+    radius = n * DX * (3 * c / (4 * math.pi)) ** (1 / 3)
+    case = {
+        "domain": {"cells": [n] * 3, "dx": DX},
+        "fluid": {"density": DENSITY, "viscosity": VISCOSITY},
+        "tau": 1.0,
+        "inertia": False,
+        "boundaries": {axis: "periodic" for axis in "xyz"},
+        "acceleration": [DRIVE, 0, 0],
+        "solids": [{"shape": "sphere", "center": [0.5 * n * DX] * 3, "radius": radius}],
+        "stop": {"steady": 1e-7, "max_steps": 200000},
+    }
+    case.update(more)
+    return case
+
+
+def drag(case, result):
+    """K = F / (6 pi mu R U) with F the drive on the whole cell."""
+    volume = math.prod(case["domain"]["cells"]) * DX**3
+    return DENSITY * DRIVE * volume / (6 * math.pi * VISCOSITY * case["solids"][0]["radius"] * result["superficial_velocity"][0])
+
+
+def reference_drag(c):
+    with open(os.path.join(REFERENCE, "02_cubic_arrays_stokes.csv"), encoding="utf-8") as file:
+        for row in csv.DictReader(line for line in file if not line.startswith("#")):
+            if row["lattice"] == "SC" and float(row["c"]) == c:
+                return float(row["K"])
+    raise ValueError(f"no simple cubic array with c = {c} in the reference")
+
+
+class Results(unittest.TestCase):
+    def test_drag_of_an_array_agrees_with_the_reference(self):
+        case = array(14)
+        status, result, _ = run(case)
+        self.assertEqual(status, 0)
+        self.assertTrue(result["converged"])
+        self.assertAlmostEqual(drag(case, result) / reference_drag(0.125), 1, delta=0.005)
+
+    def test_drag_does_not_depend_on_tau(self):
+        for magic_parameter in (0.125, 0.1875):
+            drags = []
+            for tau in (0.6, 1.0, 2.0):
+                case = array(8, tau=tau, magic_parameter=magic_parameter, stop={"steady": 1e-10, "max_steps": 400000})
+                status, result, message = run(case)
+                self.assertEqual(status, 0, message)
+                drags.append(drag(case, result))
+            self.assertLess(max(drags) / min(drags) - 1, 1e-7)
+
+    def test_force_permeability_and_velocity_belong_together(self):
+        case = array()
+        _, result, _ = run(case)
+        force = DENSITY * DRIVE * (8 * DX) ** 3
+        self.assertAlmostEqual(result["solids"][0]["force"][0] / force, 1, delta=1e-5)
+        k = VISCOSITY / DENSITY * result["superficial_velocity"][0] / DRIVE
+        self.assertAlmostEqual(result["permeability"] / k, 1, delta=1e-12)
+        self.assertLess(abs(result["mass_drift"]), 1e-12)
+
+    def test_a_free_sphere_sinks_and_a_moving_one_goes_its_way(self):
+        free = array(10, acceleration=[0, 0, 0], gravity=[0, 0, -1e-3], stop={"max_steps": 500})
+        free["solids"][0].update(free=True, density=2000.0)
+        _, result, _ = run(free)
+        self.assertLess(result["solids"][0]["velocity"][2], 0)
+        wall = {"min": {"type": "noSlip"}, "max": {"type": "noSlip"}}
+        moving = array(10, acceleration=[0, 0, 0], stop={"max_steps": 500}, boundaries={"y": wall, "z": wall})
+        moving["solids"][0].update(moving=True, velocity=[1e-6, 0, 0])
+        _, result, _ = run(moving)
+        self.assertAlmostEqual(result["solids"][0]["position"][0], 5 * DX + 1e-6 * result["time"], delta=1e-15)
+        self.assertLess(result["solids"][0]["force"][0], 0)
+
+    def test_the_flow_is_written_for_paraview(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "flow.vti")
+            status, _, message = run(array(output={"vtk": path}))
+            self.assertEqual(status, 0, message)
+            with open(path, "rb") as file:
+                content = file.read()
+            self.assertIn(b'WholeExtent="0 8 0 8 0 8"', content)
+            for name, components in ((b"velocity", 3), (b"pressure", 1), (b"solidFraction", 1)):
+                self.assertIn(b'Name="%s" NumberOfComponents="%d"' % (name, components), content)
+            data = content.split(b'encoding="raw">\n_')[1]
+            self.assertEqual(int.from_bytes(data[:8], "little"), 8**3 * 3 * 4)
+            self.assertEqual(os.listdir(folder), ["flow.vti"])
+
+
+class Messages(unittest.TestCase):
+    def refused(self, text, case):
+        status, result, message = run(case)
+        self.assertEqual(status, 2, message)
+        self.assertIsNone(result)
+        self.assertIn(text, message)
+        self.assertEqual(message.count("\n"), 1, message)
+
+    def test_keys_are_named(self):
+        self.refused("solidz: unknown key", array(solidz=[]))
+        self.refused("tau: missing", {key: value for key, value in array().items() if key != "tau"})
+        self.refused('tau: must be a number', array(tau="high"))
+        self.refused("fluid.viscosty: unknown key", array(fluid={"density": 1, "viscosity": 1, "viscosty": 1}))
+        self.refused("domain.cells: must be three whole numbers", array(domain={"cells": [8, 8.5, 8], "dx": DX}))
+        self.refused('scheme = "magic": must be one of exact', array(scheme="magic"))
+        self.refused("stop.max_steps: must be a whole number", array(stop={"max_steps": -1}))
+        solid = dict(array()["solids"][0], colour="red")
+        self.refused("solids[0].colour: unknown key", array(solids=[solid]))
+        self.refused("boundaries.x.max: missing", array(boundaries={"x": {"min": {"type": "noSlip"}}}))
+        self.refused('boundaries.x.min.type = "wet"', array(boundaries={"x": {"min": {"type": "wet"}, "max": {}}}))
+
+    def test_values_are_checked(self):
+        self.refused("dx = -1", array(domain={"cells": [8, 8, 8], "dx": -1}))
+        self.refused("must lie between", array(tau=0.5))
+        self.refused("solid 0: radius", array(solids=[{"center": [0, 0, 0], "radius": DX}]))
+        self.refused("larger than the box", array(solids=[{"center": [0, 0, 0], "radius": 5 * DX}]))
+
+    def test_text_that_is_no_case(self):
+        self.refused("not valid JSON", "{")
+        self.refused("must be an object", "[]")
+        done = subprocess.run([PROGRAM, "run", "/nowhere.json"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("/nowhere.json: cannot be read", done.stderr)
+
+    def test_runs_that_fail_say_so(self):
+        status, result, message = run(array(stop={"steady": 1e-12, "max_steps": 400}))
+        self.assertEqual(status, 3)
+        self.assertFalse(result["converged"])
+        self.assertIn("raise stop.max_steps", message)
+        status, _, message = run(array(acceleration=[1e3, 0, 0]))
+        self.assertEqual(status, 3)
+        self.assertIn("above the limit", message)
+
+    def test_wrong_usage_is_explained(self):
+        done = subprocess.run([PROGRAM, "fly"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("usage: lbm run CASE.json", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v"])
