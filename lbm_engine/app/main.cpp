@@ -1,3 +1,4 @@
+#include "bench.hpp"
 #include "run_case.hpp"
 
 #include <nlohmann/json.hpp>
@@ -16,9 +17,11 @@ constexpr double kSecondsBetweenReports = 1;
 
 constexpr char kUsage[] =
     R"(usage: lbm run CASE.json
+       lbm bench [--help] [OPTION VALUE ...]
 
-Runs the fluid of CASE.json until it is steady (or for stop.max_steps steps). Result as JSON on standard output, progress on standard
-error. "-" reads the case from standard input. The user guide describes the keys: docs/user-guide.md.
+run:   Runs the fluid of CASE.json until it is steady (or for stop.max_steps steps). Result as JSON on standard output,
+       progress on standard error. "-" reads the case from standard input. docs/user-guide.md describes the keys.
+bench: Measures memory bandwidth and throughput on this machine.
 
 exit status: 0, 2 for bad input, 3 for a run that diverged or did not become steady
 )";
@@ -59,6 +62,18 @@ int run(const std::string& path)
     return 0;
 }
 
+int bench(const std::vector<std::string>& arguments)
+{
+    if (arguments.size() == 1 && arguments[0] == "--help") {
+        std::fputs(lbm::kBenchUsage, stdout);
+        return 0;
+    }
+    const auto options = lbm::read_bench_options(arguments);
+    std::cout << lbm::run_bench(options, [](const std::string& line) { std::cerr << line << std::endl; }).dump(2)
+              << '\n';
+    return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv)
@@ -68,12 +83,13 @@ int main(int argc, char** argv)
         std::fputs(kUsage, stdout);
         return 0;
     }
-    if (arguments.size() != 2 || arguments[0] != "run") {
+    const bool benchmark = !arguments.empty() && arguments[0] == "bench";
+    if (!benchmark && (arguments.size() != 2 || arguments[0] != "run")) {
         std::fputs(kUsage, stderr);
         return kBadInput;
     }
     try {
-        return run(arguments[1]);
+        return benchmark ? bench({arguments.begin() + 1, arguments.end()}) : run(arguments[1]);
     } catch (const lbm::ConfigError& error) {
         std::fprintf(stderr, "lbm: %s\n", error.what());
         return kBadInput;
