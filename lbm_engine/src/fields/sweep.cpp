@@ -24,10 +24,10 @@ SpeedWatch sweep(Populations<T>& populations, const CollisionParameters& p, bool
             for (int i = 0; i < D3Q19::Q; ++i) slot[i] = layout.incoming(i, 0, y, z, populations.odd);
             if (solids.covers(row)) {
                 solids.saturate(row, cells);
-                sweep_row(populations.data(), slot, nx, p, &cells, watch);
+                sweep_row(populations.data(), slot, nx, layout.row, p, &cells, watch);
                 solids.collect(row, cells);
             } else {
-                sweep_row(populations.data(), slot, nx, p, nullptr, watch);
+                sweep_row(populations.data(), slot, nx, layout.row, p, nullptr, watch);
             }
             after_row(y, z);
         }

@@ -5,8 +5,8 @@ namespace lbm {
 #define LBM_DECLARE(isa)                                                                                               \
     namespace isa {                                                                                                    \
     template <bool inertia, class T>                                                                                   \
-    void sweep_row(T*, const Layout::Index (&)[D3Q19::Q], int, const CollisionParameters&, RowSaturation*,             \
-                   SpeedWatch&) noexcept;                                                                              \
+    void sweep_row(T*, const Layout::Index (&)[D3Q19::Q], int, Layout::Index, const CollisionParameters&,              \
+                   RowSaturation*, SpeedWatch&) noexcept;                                                              \
     }
 LBM_DECLARE(portable)
 #ifdef LBM_X86_KERNELS

@@ -17,11 +17,12 @@ struct SpeedWatch {
  * @param f      populations
  * @param slot   slot of f_i in the first cell of the row, for this parity; f*_i goes to slot[opposite(i)]
  * @param nx     cells
+ * @param ahead  slots from this row to the one that will be swept next, to be fetched meanwhile
  * @param cells  the row's saturation, or null where no solid is
  */
 template <class T>
-using SweepRow = void (*)(T* f, const Layout::Index (&slot)[D3Q19::Q], int nx, const CollisionParameters& p,
-                          RowSaturation* cells, SpeedWatch& watch) noexcept;
+using SweepRow = void (*)(T* f, const Layout::Index (&slot)[D3Q19::Q], int nx, Layout::Index ahead,
+                          const CollisionParameters& p, RowSaturation* cells, SpeedWatch& watch) noexcept;
 
 template <class T>
 struct SweepRows {
