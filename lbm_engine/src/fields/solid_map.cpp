@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 namespace lbm {
@@ -172,43 +171,69 @@ void normalise(RowSaturation& cells)
     }
 }
 
-/// The thirteen sums of a span in the order of SpanSums: F, rx F, P, rx P (y and z), b, b rx^2.
-constexpr int kSpanSums = 13;
-
+/// Adds the answers of n cells to the thirteen sums of a span, in the order of SpanSums: F, rx F, P, rx P (y and z), b, b rx^2.
 template <int W>
 [[gnu::always_inline]] inline void add_answers(const RowSaturation& cells, int x, int n, const double* eps, double rx,
-                                               double (&sums)[kSpanSums])
+                                               double* sums)
 {
     using C = RowSaturation;
     const auto in = [&](int column, int i) __attribute__((always_inline))
     {
         return load<W>(cells.column(column) + x + i);
     };
-    Pack<W> t[kSpanSums]{};
+    const Pack<W> zero{}, one = zero + 1.0;
+    Pack<W> F[3] = {zero, zero, zero}, xF[3] = {zero, zero, zero}, P[3] = {zero, zero, zero}, xPy = zero, xPz = zero,
+            b = zero, bxx = zero;
     for (int i = 0; i < n; i += W) {
         const Pack<W> sum = in(C::kEpsilonSum, i), epsilon = in(C::kEpsilon, i);
-        const Pack<W> one = Pack<W>{} + 1.0;
         const Pack<W> share = load<W>(eps + i) / (sum > 0 ? sum : one);
         const Pack<W> filled = share * epsilon, r = (rx + i) + lanes<W>();
+#pragma GCC unroll 3
         for (int d = 0; d < 3; ++d) {
-            const Pack<W> F = share * in(C::kForce + d, i), P = filled * in(C::kMomentum + d, i);
-            t[d] += F;
-            t[3 + d] += r * F;
-            t[6 + d] += P;
-            if (d > 0) t[8 + d] += r * P;
+            const Pack<W> f = share * in(C::kForce + d, i);
+            F[d] += f;
+            xF[d] += r * f;
         }
-        const Pack<W> b = share * (1 - epsilon) * in(C::kWeight, i);
-        t[11] += b;
-        t[12] += b * r * r;
+        const Pack<W> py = filled * in(C::kMomentum + 1, i), pz = filled * in(C::kMomentum + 2, i);
+        P[0] += filled * in(C::kMomentum, i);
+        P[1] += py;
+        P[2] += pz;
+        xPy += r * py;
+        xPz += r * pz;
+        const Pack<W> w = share * (one - epsilon) * in(C::kWeight, i);
+        b += w;
+        bxx += w * r * r;
     }
-    for (int s = 0; s < kSpanSums; ++s) {
-        if constexpr (W == 1) sums[s] += t[s];
-        else
-            for (int l = 0; l < W; ++l) sums[s] += t[s][l];
+#pragma GCC unroll 3
+    for (int d = 0; d < 3; ++d) {
+        sums[d] += sum_lanes(F[d]);
+        sums[3 + d] += sum_lanes(xF[d]);
+        sums[6 + d] += sum_lanes(P[d]);
     }
+    sums[9] += sum_lanes(xPy);
+    sums[10] += sum_lanes(xPz);
+    sums[11] += sum_lanes(b);
+    sums[12] += sum_lanes(bxx);
 }
 
 }  // namespace
+
+void SolidMap::prefetch(std::size_t row) const noexcept
+{
+    const std::size_t rows = row_begin_.size() - 1;
+    if (row + 1 < rows)
+        for (std::uint32_t e = row_begin_[row + 1]; e < row_begin_[row + 2]; ++e)
+            __builtin_prefetch(&solids_[entries_[e].solid].spans[entries_[e].span]);
+    if (row < rows)
+        for (std::uint32_t e = row_begin_[row]; e < row_begin_[row + 1]; ++e) {
+            const MappedSolid& solid = solids_[entries_[e].solid];
+            const Span& span = solid.spans[entries_[e].span];
+            for (int i = 0; i < span.n; i += kBlock) __builtin_prefetch(solid.fractions.data() + span.fractions + i);
+            const char* const sums = reinterpret_cast<const char*>(&solid.sums[entries_[e].span]);
+            __builtin_prefetch(sums, 1);
+            __builtin_prefetch(sums + sizeof(SpanSums) - 1, 1);
+        }
+}
 
 LBM_EACH_ISA
 void SolidMap::saturate(std::size_t row, RowSaturation& cells) const
@@ -243,7 +268,6 @@ void SolidMap::saturate(std::size_t row, RowSaturation& cells) const
 LBM_EACH_ISA
 void SolidMap::collect(std::size_t row, RowSaturation& cells)
 {
-    static_assert(sizeof(SpanSums) == kSpanSums * sizeof(double));
     for (std::uint32_t e = row_begin_[row]; e < row_begin_[row + 1]; ++e) {
         MappedSolid& solid = solids_[entries_[e].solid];
         const Span& span = solid.spans[entries_[e].span];
@@ -251,11 +275,12 @@ void SolidMap::collect(std::size_t row, RowSaturation& cells)
         const double* const eps = solid.fractions.data() + span.fractions;
         const double rx = span.x0 + 0.5 - solid.sphere.centre[0];
         const int x0 = wrap(span.x0, n_[0]);
-        double sums[kSpanSums]{};
-        if (x0 + span.n <= n_[0]) add_answers<kBlock>(cells, x0, span.n, eps, rx, sums);
+        SpanSums& sums = solid.sums[entries_[e].span];
+        sums = SpanSums{};
+        if (x0 + span.n <= n_[0]) add_answers<kBlock>(cells, x0, span.n, eps, rx, sums.data());
         else
-            for (int i = 0; i < span.n; ++i) add_answers<1>(cells, wrap(span.x0 + i, n_[0]), 1, eps + i, rx + i, sums);
-        std::memcpy(&solid.sums[entries_[e].span], sums, sizeof(sums));
+            for (int i = 0; i < span.n; ++i)
+                add_answers<1>(cells, wrap(span.x0 + i, n_[0]), 1, eps + i, rx + i, sums.data());
     }
     clear(cells);
 }
@@ -276,19 +301,21 @@ SolidSums SolidMap::sums(std::size_t solid) const
     SolidSums total;
     for (int s = 0; s < static_cast<int>(m.sums.size()); ++s) {
         if (m.spans[s].n == 0) continue;
-        const SpanSums& t = m.sums[s];
+        const double* const F = m.sums[s].data();
+        const double *const xF = F + 3, *const P = F + 6, *const xP = F + 9;
+        const double b = F[11], bxx = F[12];
         const int y = m.y0 + s % m.ny, z = m.z0 + s / m.ny;
         const double ry = y + 0.5 - m.sphere.centre[1], rz = z + 0.5 - m.sphere.centre[2];
         for (int d = 0; d < 3; ++d) {
-            total.force[d] += t.F[d];
-            total.momentum[d] += t.P[d];
-            total.first_moment[0][d] += t.xF[d];
-            total.first_moment[1][d] += ry * t.F[d];
-            total.first_moment[2][d] += rz * t.F[d];
+            total.force[d] += F[d];
+            total.momentum[d] += P[d];
+            total.first_moment[0][d] += xF[d];
+            total.first_moment[1][d] += ry * F[d];
+            total.first_moment[2][d] += rz * F[d];
         }
-        total.angular_momentum += Vec3{ry * t.P[2] - rz * t.P[1], rz * t.P[0] - t.xP[1], t.xP[0] - ry * t.P[0]};
-        total.coupling += t.b;
-        total.spin_coupling += (2.0 / 3) * (t.bxx + t.b * (ry * ry + rz * rz));
+        total.angular_momentum += Vec3{ry * P[2] - rz * P[1], rz * P[0] - xP[1], xP[0] - ry * P[0]};
+        total.coupling += b;
+        total.spin_coupling += (2.0 / 3) * (bxx + b * (ry * ry + rz * rz));
     }
     return total;
 }

@@ -57,6 +57,8 @@ public:
 
     bool covers(std::size_t row) const noexcept { return !solids_.empty() && row_begin_[row] != row_begin_[row + 1]; }
 
+    /// Asks memory for what `row` and the one after it will need: spans lie scattered, solid by solid.
+    void prefetch(std::size_t row) const noexcept;
     /// Writes what the solids say to the cells of a row, and marks the covered blocks.
     void saturate(std::size_t row, RowSaturation& cells) const;
     /// Reads the cells' answers into the spans' sums, and clears the row for the next one.
@@ -68,9 +70,7 @@ public:
     std::size_t memory_bytes() const;
 
 private:
-    struct SpanSums {
-        double F[3], xF[3], P[3], xP[2], b, bxx;
-    };
+    using SpanSums = std::array<double, 13>;  // F, rx F, P, rx P (y and z), b, b rx^2
     struct Span {
         std::int32_t x0, n;       // x0 not wrapped
         std::uint32_t fractions;  // offset; padded with zeros to whole blocks

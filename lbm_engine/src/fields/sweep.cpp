@@ -24,6 +24,7 @@ SpeedWatch sweep(Populations<T>& populations, const CollisionParameters& p, bool
             for (int i = 0; i < D3Q19::Q; ++i) slot[i] = layout.incoming(i, 0, y, z, populations.odd);
             if (solids.covers(row)) {
                 solids.saturate(row, cells);
+                solids.prefetch(row + 1);
                 sweep_row(populations.data(), slot, nx, layout.row, p, &cells, watch);
                 solids.collect(row, cells);
             } else {
