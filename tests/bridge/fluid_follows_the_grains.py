@@ -48,6 +48,31 @@ def planned_steps_are_whole_numbers_of_grain_steps():
         check_close(fluid.fluidDt, fluid.stepsPerFluidStep * dt, 1e-12 * dt, "fluid step")
 
 
+def a_planned_tau_follows_a_change_of_the_time_step():
+    """Steady flow past a fixed sphere; then O.dt changes by much, and by little."""
+    fluid = one_sphere((10, 10, 10), radius=3e-3, inertia=False, boundary=PERIODIC, acceleration=(1e-3, 0, 0))
+    O.dt = 1.2e-3  # tau 0.536
+    O.run(12000, True)
+    drag, first = fluid.fluidForce(0)[0], fluid.fluidDt
+    for dt, follows in ((6e-3, True), (6.6e-3, False), (2e-3, True)):
+        before = fluid.fluidDt
+        O.dt = dt
+        O.run(math.ceil(first / dt) + 8, True)
+        check((fluid.fluidDt != before) == follows, "O.dt = %g: fluidDt %g after %g" % (dt, fluid.fluidDt, before))
+        check_close(fluid.fluidForce(0)[0] / drag, 1, 1e-6, "drag after O.dt became %g" % dt)
+        if follows:
+            check_close(fluid.stepsPerFluidStep, round(fluid.stepsPerFluidStep), 1e-9, "not whole")
+
+
+def a_given_tau_stays():
+    fluid = one_sphere(tau=TAU, **DRIVE)
+    O.dt = STEP
+    O.run(3, True)
+    O.dt = STEP / 7
+    O.run(20, True)
+    check_close(fluid.fluidDt, STEP, 1e-12 * STEP, "fluid step")
+
+
 def a_long_grain_step_is_divided():
     fluid = one_sphere((4, 4, 4), radius=2e-3, **DRIVE)
     O.dt = 1.0
@@ -190,6 +215,8 @@ prove(
     whole_ratios_step_every_nth_time,
     other_ratios_step_when_their_time_comes,
     planned_steps_are_whole_numbers_of_grain_steps,
+    a_planned_tau_follows_a_change_of_the_time_step,
+    a_given_tau_stays,
     a_long_grain_step_is_divided,
     the_two_clocks_stay_together,
     another_time_step_of_the_grains_is_followed,

@@ -19,6 +19,9 @@ namespace {
 
 constexpr const char* kPartNames[] = {"states in", "map", "exchange", "collide-stream", "loads", "loads out"};
 
+/// Ratio of the planned to the present time step of the fluid from which on it is changed.
+constexpr double kPoorFit = 1.25;
+
 class Stopwatch {
 public:
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -55,6 +58,7 @@ void LbmEngine::advance()
     if (!failure_.empty()) throw lbm::RunError("LbmEngine: the fluid stopped earlier: " + failure_);
     if (!fluid_) start();
     bool spread = follow_grains();
+    if (replan_ && schedule_.fluid_step_due()) follow_time_step();
     for (; schedule_.fluid_step_due(); spread = true) step_fluid();
 
     const Stopwatch out;
@@ -92,7 +96,22 @@ bool LbmEngine::follow_grains()
     if (!(std::isfinite(scene->dt) && scene->dt > 0))
         throw lbm::ConfigError("O.dt = " + text(scene->dt) + ": must be finite and > 0 [s]");
     schedule_.change_grain_dt(scene->dt);
+    replan_ = true;
     return true;
+}
+
+/// Gives the fluid the time step that fits the grains' new one, if the present one has become a poor fit. Small changes are
+/// left to the schedule, which follows by time: time steppers make many.
+void LbmEngine::follow_time_step()
+{
+    replan_ = false;
+    if (!std::isnan(settings_.tau)) return;
+    read_solids(*scene, {settings_.mask, settings_.ids}, 0, solids_);
+    const lbm::Plan plan = plan_for_scene(*scene, settings_, solids_, settings_.tau);
+    const double ratio = plan.fluid_dt / fluid_->dt();
+    if (ratio < kPoorFit && ratio > 1 / kPoorFit) return;
+    fluid_->change_tau(plan.tau);
+    schedule_.change_fluid_dt(fluid_->dt());
 }
 
 /// A time stepper that stands behind the fluid changes O.dt after the loads were written: ask how far the scene's time

@@ -77,6 +77,7 @@ private:
     void advance();
     void start();
     bool follow_grains();
+    void follow_time_step();
     double length_of_last_grain_step(const yade::Scene& now) const;
     void step_fluid();
     void account(Part part, double seconds, long executions);
@@ -92,6 +93,7 @@ private:
     Schedule schedule_;
     HeldLoads held_;
     std::vector<lbm::Solid> solids_;  // of the last fluid step
+    bool replan_ = false;             // O.dt has changed since the fluid's step was chosen
     long last_iter_ = -1;             // of the scene, at the last action
     double last_time_ = 0;
     std::string failure_;       // why the fluid cannot go on; empty: it can

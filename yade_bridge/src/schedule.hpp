@@ -9,7 +9,7 @@ namespace yadelbm {
  * When the fluid steps, seen from the grains' steps. Pure arithmetic.
  *
  * Grain step m covers [m dt, (m+1) dt). A fluid step is done in the grain step in which it begins, before the grains are
- * integrated. Time is counted in whole steps since the last change of dt, so that nothing drifts.
+ * integrated. Time is counted in whole steps since the last change of a step, so that nothing drifts.
  */
 class Schedule {
 public:
@@ -50,6 +50,14 @@ public:
         lead_at_base_ = lead();
         fluid_steps_ = grain_steps_ = 0;
         grain_dt_ = grain_dt;
+    }
+
+    /// From the next fluid step on the fluid's step is this long [s].
+    void change_fluid_dt(double fluid_dt) noexcept
+    {
+        lead_at_base_ = lead();
+        fluid_steps_ = grain_steps_ = 0;
+        fluid_dt_ = fluid_dt;
     }
 
 private:

@@ -53,11 +53,19 @@ public:
      */
     void step();
 
+    /**
+     * Goes on with another relaxation time, and so with another dt(), in the same flow: velocities, pressures, stresses and loads
+     * stay what they are (in steady Stokes flow exactly).
+     * @param tau  kMinTau to kMaxTau
+     * @throws ConfigError  if it is outside, or the present speed would go beyond the Mach limit; nothing has changed then
+     */
+    void change_tau(double tau);
+
     /// Loads of the last step, in the order of the last `place_solids`; zero before the first step.
     const std::vector<SolidLoad>& loads() const noexcept;
 
     double dt() const noexcept;    ///< [s]
-    double time() const noexcept;  ///< steps() * dt() [s]
+    double time() const noexcept;  ///< that the steps have covered [s]
     std::int64_t steps() const noexcept;
     double max_mach() const noexcept;  ///< largest Mach number seen in the last step [-]
     StepTimes times() const noexcept;

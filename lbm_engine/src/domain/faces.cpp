@@ -56,15 +56,15 @@ Faces::Faces(const Layout& layout, const std::array<FaceCondition, 6>& condition
 }
 
 template <class T, class Move>
-void Faces::for_links(T* f, Move move) const
+void Faces::for_links(const std::vector<Links>& all, const std::array<Layout::Index, 3>& stride, T* f, Move move)
 {
-    for (const Links& links : links_) {
+    for (const Links& links : all) {
         const int nx = links.extent[0], ny = links.extent[1], nz = links.extent[2];
         const bool threads = static_cast<Layout::Index>(nx) * ny * nz > 4096;
 #pragma omp parallel for collapse(2) schedule(static) if (threads)
         for (int z = 0; z < nz; ++z)
             for (int y = 0; y < ny; ++y) {
-                const Layout::Index at = z * stride_[2] + y * stride_[1];
+                const Layout::Index at = z * stride[2] + y * stride[1];
                 T* const ghost = f + links.ghost + at;
                 T* const partner = f + links.partner + at;
                 for (int x = 0; x < nx; ++x) move(ghost[x], partner[x], static_cast<T>(links.gain));
@@ -107,20 +107,30 @@ void Faces::drain_row(T* f, int y, int z) const
 template <class T>
 void Faces::fill(T* f) const
 {
-    for_links(f, kFill);
+    for_links(links_, stride_, f, kFill);
 }
 
 template <class T>
 void Faces::drain(T* f) const
 {
-    for_links(f, kDrain);
+    for_links(links_, stride_, f, kDrain);
+}
+
+template <class T>
+void Faces::restore(T* f, bool odd) const
+{
+    for (const auto* all : {&x_links_, &links_}) {
+        if (odd) for_links(*all, stride_, f, [](const T& ghost, T& partner, T gain) { partner = ghost - gain; });
+        else for_links(*all, stride_, f, [](T& ghost, const T& partner, T gain) { ghost = partner - gain; });
+    }
 }
 
 #define LBM_INSTANTIATE(T)                                                                                             \
     template void Faces::fill_row(T*, int, int) const;                                                                 \
     template void Faces::drain_row(T*, int, int) const;                                                                \
     template void Faces::fill(T*) const;                                                                               \
-    template void Faces::drain(T*) const;
+    template void Faces::drain(T*) const;                                                                              \
+    template void Faces::restore(T*, bool) const;
 LBM_INSTANTIATE(double)
 LBM_INSTANTIATE(float)
 #undef LBM_INSTANTIATE

@@ -36,6 +36,10 @@ public:
     template <class T>
     void drain(T* f) const;
 
+    /// Makes what left through the faces agree with what came in, after populations were changed between two steps.
+    template <class T>
+    void restore(T* f, bool odd) const;
+
 private:
     /// A block of links of one direction: slots ghost + d.stride and partner + d.stride, 0 <= d < extent.
     struct Links {
@@ -46,7 +50,7 @@ private:
         double gain;  ///< what a moving wall adds
     };
     template <class T, class Move>
-    void for_links(T* f, Move move) const;
+    static void for_links(const std::vector<Links>& all, const std::array<Layout::Index, 3>& stride, T* f, Move move);
     template <class T, class Move>
     void for_links_of_row(T* f, int y, int z, bool fill, Move move) const;
 

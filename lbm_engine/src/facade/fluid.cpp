@@ -12,9 +12,10 @@ Fluid& Fluid::operator=(Fluid&&) noexcept = default;
 const FluidConfig& Fluid::config() const noexcept { return implementation_->config; }
 void Fluid::place_solids(const std::vector<Solid>& solids) { implementation_->place(solids); }
 void Fluid::step() { implementation_->step(); }
+void Fluid::change_tau(double tau) { implementation_->change_tau(tau); }
 const std::vector<SolidLoad>& Fluid::loads() const noexcept { return implementation_->loads; }
 double Fluid::dt() const noexcept { return implementation_->dt; }
-double Fluid::time() const noexcept { return static_cast<double>(steps()) * dt(); }
+double Fluid::time() const noexcept { return implementation_->time(); }
 std::int64_t Fluid::steps() const noexcept { return implementation_->steps; }
 double Fluid::max_mach() const noexcept { return std::sqrt(implementation_->max_speed2) / kSpeedOfSound; }
 StepTimes Fluid::times() const noexcept { return implementation_->times; }

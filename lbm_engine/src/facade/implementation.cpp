@@ -1,6 +1,7 @@
 #include "facade/implementation.hpp"
 
 #include "facade/validate.hpp"
+#include "fields/rescale.hpp"
 #include "lattice/message.hpp"
 
 #include <algorithm>
@@ -114,7 +115,9 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
     map.update(spheres, previous);
     if (!same_ids) {
         std::vector<LoadLedger> kept(now.size());
-        if (any_new) std::visit([&](const auto& f) { sum_inside(f, map); }, populations);
+        if (any_new)
+            std::visit([&](const auto& f) { sum_inside(f, collision, config.inertia, map, &CellState::momentum); },
+                       populations);
         index_of_id.clear();
         for (std::ptrdiff_t s = 0; s < count; ++s) {
             index_of_id.emplace(now[s].id, static_cast<int>(s));
@@ -157,6 +160,57 @@ void Fluid::Implementation::step()
     watch_time.lap();
     settle_loads();
     times.loads += watch_time.lap();
+}
+
+void Fluid::Implementation::change_tau(double tau)
+{
+    FluidConfig changed = config;
+    changed.tau = tau;
+    validate(changed);
+    const double s = (tau - 0.5) / (config.tau - 0.5);  // dt' / dt
+    const double mach = std::sqrt(max_speed2) / kSpeedOfSound * s;
+    if (mach > config.max_mach)
+        throw ConfigError(message("tau = ", tau, ": the present flow would have the Mach number ", mach,
+                                  ", above the limit ", config.max_mach,
+                                  "; use tau <= ", 0.5 + (tau - 0.5) * config.max_mach / mach));
+    const ThreadCount threads(config.threads);
+    const auto momenta_inside = [&] {
+        std::visit([&](const auto& f) { sum_inside(f, collision, config.inertia, map, &CellState::next_momentum); },
+                   populations);
+        std::vector<SolidSums> all(solids.size());
+        for (std::size_t i = 0; i < all.size(); ++i) all[i] = map.sums(i);
+        return all;
+    };
+    const auto before = momenta_inside();
+    CollisionParameters to{TrtRates(tau, magic_parameter(config)), {}, collision.low_noise};
+    for (int d = 0; d < 3; ++d) to.body_force[d] = s * s * collision.body_force[d];
+    std::visit([&](auto& f) { rescale(f, collision, to, config.inertia, map); }, populations);
+
+    time_before_dt = time();
+    steps_before_dt = steps;
+    config = changed;
+    dt = fluid_time_step(tau, config.dx, config.viscosity / config.density);
+    units = Units(config.dx, dt, config.density);
+    collision = to;
+    max_speed2 *= s * s;
+    std::visit(
+        [&](auto& f) {
+            faces = Faces(f.layout, lattice_faces(config, units));
+            faces.restore(f.data(), f.odd);
+        },
+        populations);
+    place(std::vector<Solid>(solids));  // velocities in the new units
+
+    // What the solids hold changes from step to step by s^2 of what it did.
+    const auto after = momenta_inside();
+    for (std::size_t i = 0; i < ledgers.size(); ++i) {
+        LoadLedger& ledger = ledgers[i];
+        ledger.momentum = after[i].momentum - (s * s) * (before[i].momentum - ledger.momentum);
+        ledger.angular_momentum =
+            after[i].angular_momentum - (s * s) * (before[i].angular_momentum - ledger.angular_momentum);
+        ledger.owed = s * ledger.owed;
+        ledger.owed_moment = s * ledger.owed_moment;
+    }
 }
 
 void Fluid::Implementation::settle_loads()
@@ -214,8 +268,8 @@ void Fluid::Implementation::watch(const SpeedWatch& speeds) const
         },
         populations);
     const auto [nx, ny, nz] = config.cells;
-    const auto place = message("at step ", steps, " (t = ", steps * dt, " s), cell (", where % nx, ", ",
-                               where / nx % ny, ", ", where / nx / ny, ")");
+    const auto place = message("at step ", steps, " (t = ", time(), " s), cell (", where % nx, ", ", where / nx % ny,
+                               ", ", where / nx / ny, ")");
     if (diverged)
         throw RunError(message("the fluid diverged ", place,
                                ": use a smaller time step of the fluid or more cells, or keep tau above 0.52"));

@@ -39,7 +39,8 @@ struct Fluid::Implementation {
     std::variant<Populations<double>, Populations<float>> populations;
     Faces faces;
     SolidMap map;
-    std::int64_t steps = 0;
+    std::int64_t steps = 0, steps_before_dt = 0;  // the latter when dt became what it is
+    double time_before_dt = 0;
 
     std::vector<Solid> solids;                          // as last placed
     std::vector<LoadLedger> ledgers;                    // in the same order
@@ -52,6 +53,8 @@ struct Fluid::Implementation {
 
     void place(const std::vector<Solid>& now);
     void step();
+    void change_tau(double tau);
+    double time() const { return time_before_dt + static_cast<double>(steps - steps_before_dt) * dt; }
     void settle_loads();
     SolidLoad load_in_si(std::size_t s, const LoadLedger::Load& load, const SolidSums& sums) const;
     void watch(const SpeedWatch& speeds) const;
@@ -69,10 +72,15 @@ struct Fluid::Implementation {
     Value sum_cells(Evaluate evaluate) const
     {
         std::vector<Value> rows(static_cast<std::size_t>(config.cells[1]) * config.cells[2], Value{});
-        for_cells([&](std::size_t row, int, const CellState& cell) { rows[row] += evaluate(cell); });
+        for_cells([&](const CellState& cell) { rows[index(cell) / config.cells[0]] += evaluate(cell); });
         Value sum{};
         for (const Value& row : rows) sum += row;
         return sum;
+    }
+    /// Of a cell in a field (nz, ny, nx).
+    std::size_t index(const CellState& cell) const
+    {
+        return (static_cast<std::size_t>(cell.z) * config.cells[1] + cell.y) * config.cells[0] + cell.x;
     }
     CellState cell_at(int x, int y, int z) const;
     double cell_count() const { return double(config.cells[0]) * config.cells[1] * config.cells[2]; }

@@ -49,10 +49,9 @@ double Fluid::kinetic_energy() const
 std::vector<double> Fluid::velocity_field() const
 {
     const auto& fluid = *implementation_;
-    const std::size_t nx = config().cells[0];
     std::vector<double> field(3 * static_cast<std::size_t>(fluid.cell_count()));
-    fluid.for_cells([&](std::size_t row, int x, const CellState& cell) {
-        for (int d = 0; d < 3; ++d) field[3 * (row * nx + x) + d] = fluid.units.velocity * cell.u[d];
+    fluid.for_cells([&](const CellState& cell) {
+        for (int d = 0; d < 3; ++d) field[3 * fluid.index(cell) + d] = fluid.units.velocity * cell.u[d];
     });
     return field;
 }
@@ -60,10 +59,9 @@ std::vector<double> Fluid::velocity_field() const
 std::vector<double> Fluid::pressure_field() const
 {
     const auto& fluid = *implementation_;
-    const std::size_t nx = config().cells[0];
     std::vector<double> field(static_cast<std::size_t>(fluid.cell_count()));
-    fluid.for_cells([&](std::size_t row, int x, const CellState& cell) {
-        field[row * nx + x] = fluid.units.pressure * kSpeedOfSound * kSpeedOfSound * cell.drho;
+    fluid.for_cells([&](const CellState& cell) {
+        field[fluid.index(cell)] = fluid.units.pressure * kSpeedOfSound * kSpeedOfSound * cell.drho;
     });
     return field;
 }
@@ -71,9 +69,8 @@ std::vector<double> Fluid::pressure_field() const
 std::vector<double> Fluid::solid_fraction_field() const
 {
     const auto& fluid = *implementation_;
-    const std::size_t nx = config().cells[0];
     std::vector<double> field(static_cast<std::size_t>(fluid.cell_count()));
-    fluid.for_cells([&](std::size_t row, int x, const CellState& cell) { field[row * nx + x] = cell.epsilon; });
+    fluid.for_cells([&](const CellState& cell) { field[fluid.index(cell)] = cell.epsilon; });
     return field;
 }
 
@@ -110,14 +107,15 @@ Stencil stencil(const FluidConfig& c, const Vec3& position)
 CellState Fluid::Implementation::cell_at(int x, int y, int z) const
 {
     CellState found{};
-    const std::size_t wanted = static_cast<std::size_t>(z) * config.cells[1] + y;
     std::visit(
         [&](const auto& f) {
             RowSaturation cells(config.cells[0]);
-            const auto take = [&](std::size_t, int i, const CellState& cell) {
-                if (i == x) found = cell;
+            const std::size_t row = static_cast<std::size_t>(z) * config.cells[1] + y;
+            if (map.covers(row)) map.saturate(row, cells);
+            const auto take = [&](const CellState& cell) {
+                if (cell.x == x) found = cell;
             };
-            for_cells_of_row(f, collision, config.inertia, map, wanted, cells, take);
+            read_row(f, collision, config.inertia, y, z, cells, take);
         },
         populations);
     return found;

@@ -40,7 +40,8 @@ SpeedWatch sweep(Populations<T>& populations, const CollisionParameters& p, bool
 }
 
 template <class T>
-void sum_inside(const Populations<T>& populations, SolidMap& solids)
+void sum_inside(const Populations<T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
+                Vec3 CellState::*momentum)
 {
     const int nx = populations.layout.n[0], ny = populations.layout.n[1], nz = populations.layout.n[2];
 #pragma omp parallel
@@ -50,15 +51,11 @@ void sum_inside(const Populations<T>& populations, SolidMap& solids)
         for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(ny) * nz; ++row) {
             if (!solids.covers(row)) continue;
             solids.saturate(row, cells);
-            for (int c = RowSaturation::kForce; c < RowSaturation::kColumns; ++c)
-                std::fill_n(cells.column(c), cells.stride, 0.0);
-            for (int x = 0; x < nx; ++x) {
-                if (!cells.covered[x / kBlock]) continue;
-                double f[D3Q19::Q];
-                populations.outgoing(x, static_cast<int>(row % ny), static_cast<int>(row / ny), f);
-                const Moments<double> m = moments(f);
-                for (int d = 0; d < 3; ++d) cells.column(RowSaturation::kMomentum + d)[x] = m.j[d];
-            }
+            std::fill(cells.column(RowSaturation::kForce), cells.column(RowSaturation::kColumns), 0.0);
+            const auto answer = [&](const CellState& cell) {
+                for (int d = 0; d < 3; ++d) cells.column(RowSaturation::kMomentum + d)[cell.x] = (cell.*momentum)[d];
+            };
+            read_row(populations, p, inertia, static_cast<int>(row % ny), static_cast<int>(row / ny), cells, answer);
             solids.collect(row, cells);
         }
     }
@@ -68,7 +65,7 @@ template SpeedWatch sweep(Populations<double>&, const CollisionParameters&, bool
                           const std::function<void(int, int)>&);
 template SpeedWatch sweep(Populations<float>&, const CollisionParameters&, bool, SolidMap&,
                           const std::function<void(int, int)>&);
-template void sum_inside(const Populations<double>&, SolidMap&);
-template void sum_inside(const Populations<float>&, SolidMap&);
+template void sum_inside(const Populations<double>&, const CollisionParameters&, bool, SolidMap&, Vec3 CellState::*);
+template void sum_inside(const Populations<float>&, const CollisionParameters&, bool, SolidMap&, Vec3 CellState::*);
 
 }  // namespace lbm

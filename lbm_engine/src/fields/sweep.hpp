@@ -4,7 +4,9 @@
 #include "fields/solid_map.hpp"
 #include "fields/sweep_row.hpp"
 
+#include <algorithm>
 #include <functional>
+#include <utility>
 
 namespace lbm {
 
@@ -18,44 +20,51 @@ SpeedWatch sweep(Populations<T>& populations, const CollisionParameters& p, bool
 
 /// The state of a cell between two steps, in lattice units.
 struct CellState {
-    double epsilon;  ///< solid fraction
-    double drho;     ///< rho - 1
-    Vec3 u;          ///< velocity, with half of the body and solid forces
-    Vec3 momentum;   ///< sum f c after the last collision
+    int x, y, z;
+    double epsilon;      ///< solid fraction
+    double drho;         ///< rho - 1
+    Vec3 u;              ///< velocity, with half of the body and solid forces
+    Vec3 force;          ///< F_s that the next collision will apply
+    Vec3 momentum;       ///< sum f c after the last collision
+    Vec3 next_momentum;  ///< sum f c after the next one
+    double f[D3Q19::Q];  ///< about to collide
 };
 
 /**
  * Reads the cells of one row in order.
- * @param cells  scratch
- * @param body   called as body(row, x, CellState); row = z ny + y
+ * @param cells  the row, saturated if it has solids
+ * @param body   called as body(CellState)
  */
 template <class T, class Body>
-void for_cells_of_row(const Populations<T>& populations, const CollisionParameters& p, bool inertia,
-                      const SolidMap& solids, std::size_t row, RowSaturation& cells, Body& body)
+void read_row(const Populations<T>& populations, const CollisionParameters& p, bool inertia, int y, int z,
+              const RowSaturation& cells, Body& body)
 {
-    const int nx = populations.layout.n[0], ny = populations.layout.n[1];
-    const int y = static_cast<int>(row % ny), z = static_cast<int>(row / ny);
-    const bool covered = solids.covers(row);
-    if (covered) solids.saturate(row, cells);
-    for (int x = 0; x < nx; ++x) {
+    for (int x = 0; x < populations.layout.n[0]; ++x) {
+        CellState cell{x, y, z, 0, 0, {}, {}, {}, {}, {}};
         double f[D3Q19::Q];
         populations.outgoing(x, y, z, f);
         const Moments<double> after = moments(f);
-        populations.incoming(x, y, z, f);
-        const Moments<double> before = moments(f);
+        populations.incoming(x, y, z, cell.f);
+        const Moments<double> before = moments(cell.f);
         const auto in = [&](int column) { return cells.column(column)[x]; };
         using C = RowSaturation;
         const Saturation<double> s{in(C::kEpsilon), in(C::kStrength), {in(C::kUs), in(C::kUs + 1), in(C::kUs + 2)}};
         Exchange<double> answer;
+        std::copy_n(cell.f, D3Q19::Q, f);
         if (inertia) collide_saturated<true>(f, p, s, answer);
         else collide_saturated<false>(f, p, s, answer);
         const double rho = inertia ? 1 + before.drho : 1;
-        CellState state{s.epsilon, before.drho, {}, {after.j[0], after.j[1], after.j[2]}};
-        // The collision adds m F + F_s to the momentum: halfway through, it is the velocity's.
-        for (int d = 0; d < 3; ++d) state.u[d] = 0.5 * (before.j[d] + answer.momentum[d]) / rho;
-        body(row, x, state);
+        cell.epsilon = s.epsilon;
+        cell.drho = before.drho;
+        for (int d = 0; d < 3; ++d) {
+            // The collision adds m F + F_s to the momentum: halfway through, it is the velocity's.
+            cell.u[d] = 0.5 * (before.j[d] + answer.momentum[d]) / rho;
+            cell.force[d] = answer.force[d];
+            cell.momentum[d] = after.j[d];
+            cell.next_momentum[d] = answer.momentum[d];
+        }
+        body(std::as_const(cell));
     }
-    if (covered) solids.clear(cells);
 }
 
 /// Reads all cells: rows in parallel, the cells of a row in order.
@@ -68,13 +77,21 @@ void for_cells(const Populations<T>& populations, const CollisionParameters& p, 
     {
         RowSaturation cells(nx);
 #pragma omp for schedule(static)
-        for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(ny) * nz; ++row)
-            for_cells_of_row(populations, p, inertia, solids, static_cast<std::size_t>(row), cells, body);
+        for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(ny) * nz; ++row) {
+            const bool covered = solids.covers(row);
+            if (covered) solids.saturate(row, cells);
+            read_row(populations, p, inertia, static_cast<int>(row % ny), static_cast<int>(row / ny), cells, body);
+            if (covered) solids.clear(cells);
+        }
     }
 }
 
-/// Fills the solids' sums with sum eps j of the last collision, for solids that have just been placed.
+/**
+ * Fills the solids' sums of momentum inside them, and no others.
+ * @param momentum  of a cell: member of CellState
+ */
 template <class T>
-void sum_inside(const Populations<T>& populations, SolidMap& solids);
+void sum_inside(const Populations<T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
+                Vec3 CellState::*momentum);
 
 }  // namespace lbm

@@ -149,6 +149,15 @@ struct Exchange {
     V weight;       ///< kk rho
 };
 
+/// omega-_c = 1 / (Lm lam(eps) + 1/2), with the lam of the parameter set (Weighting), multiplied out: one division.
+template <class V>
+[[gnu::always_inline]] inline V cell_omega_minus(const CollisionParameters& p, const V& epsilon)
+{
+    if (!p.low_noise) return V{} + p.rates.omega_minus;
+    const V a = 1 + 3 * epsilon;
+    return a / (p.rates.Lm * ((1 - epsilon) + 0.05 * epsilon * a) + 0.5 * a);
+}
+
 /**
  * One collision of a partially saturated cell, exact in tau for Stokes flow (superposition form, docs/physics.md):
  *
@@ -166,13 +175,7 @@ template <bool inertia, class V>
     const V m = 1 - s.epsilon;
     const V kLp = p.rates.Lp * s.strength;
     const V kk = kLp / (m + 0.5 * kLp);
-    V omega_minus;
-    if (p.low_noise) {
-        const V a = 1 + 3 * s.epsilon;
-        omega_minus = a / (p.rates.Lm * (m + 0.05 * s.epsilon * a) + 0.5 * a);
-    } else {
-        omega_minus = V{} + p.rates.omega_minus;
-    }
+    const V omega_minus = cell_omega_minus(p, s.epsilon);
     const Moments<V> mo = moments(f);
     V u[3], odd[3], even_2[3], total_force[3];
     V rho = V{} + 1.0, inverse_rho = V{} + 1.0;
