@@ -138,6 +138,8 @@ CaseSolid read_solid(Section s, std::int64_t id)
     solid.angular_velocity = s.vector("angular_velocity", {});
     entry.moving = s.flag("moving", false);
     entry.free = s.flag("free", false);
+    if (entry.free && entry.moving)
+        throw ConfigError(s.name("free") + ": a solid is free or moving at its velocity, not both");
     if (entry.free) {
         const double density = s.number("density");
         if (!(std::isfinite(density) && density > 0))

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <numbers>
 
@@ -28,22 +29,27 @@ std::int64_t window(const FluidConfig& c)
 struct Snapshot {
     Vec3 velocity;
     std::vector<SolidLoad> loads;
-    std::vector<double> radius;
 };
 
-/// Largest change relative to the size of the quantity; a torque counts against force times radius where it is small.
-double change(const Snapshot& before, const Snapshot& now)
+/// Sizes below which a quantity counts as zero by symmetry: this part of what the fastest fluid would give.
+constexpr double kNegligible = 1e-3;
+
+/// Largest change relative to the size of the quantity.
+double change(const Snapshot& before, const Snapshot& now, double fastest, double viscosity,
+              const std::vector<double>& radius)
 {
     const auto relative = [](double difference, double scale) {
         return difference == 0 ? 0 : scale > 0 ? difference / scale : std::numeric_limits<double>::infinity();
     };
-    double largest = relative(distance(before.velocity, now.velocity), size(now.velocity));
+    double largest =
+        relative(distance(before.velocity, now.velocity), std::max(size(now.velocity), kNegligible * fastest));
     for (std::size_t s = 0; s < now.loads.size(); ++s) {
         const SolidLoad &a = before.loads[s], &b = now.loads[s];
-        const double lever = now.radius[s];
-        const double scale = std::max(size(b.force), size(b.torque) / lever);
-        largest = std::max({largest, relative(distance(a.force, b.force), scale),
-                            relative(distance(a.torque, b.torque), scale * lever)});
+        const double R = radius[s], stokes = 6 * std::numbers::pi * viscosity * R * fastest;
+        const double force = std::max(size(b.force), kNegligible * stokes);
+        const double torque = std::max({size(b.torque), force * R, kNegligible * stokes * R});
+        largest = std::max(
+            {largest, relative(distance(a.force, b.force), force), relative(distance(a.torque, b.torque), torque)});
     }
     return largest;
 }
@@ -82,17 +88,17 @@ private:
 
 CaseResult run_case(const Case& input, const std::function<void(const Progress&)>& report)
 {
+    if (!input.vtk.empty() && !std::ofstream(input.vtk, std::ios::app))
+        throw ConfigError("output.vtk: " + input.vtk + " cannot be written; check its folder");
     Fluid fluid(input.fluid);
     Motion motion(input, fluid.dt());
     fluid.place_solids(motion.solids());
     const double mass = fluid.total_mass();
     const std::int64_t steps_between = window(input.fluid);
 
-    const auto snapshot = [&] {
-        Snapshot now{fluid.average_velocity(), fluid.loads(), {}};
-        for (const Solid& s : motion.solids()) now.radius.push_back(s.radius);
-        return now;
-    };
+    const auto snapshot = [&] { return Snapshot{fluid.average_velocity(), fluid.loads()}; };
+    std::vector<double> radius;
+    for (const Solid& s : motion.solids()) radius.push_back(s.radius);
     Snapshot before = snapshot();
     double latest_change = std::numeric_limits<double>::infinity();
     bool converged = false;
@@ -107,7 +113,8 @@ CaseResult run_case(const Case& input, const std::function<void(const Progress&)
         fluid.place_solids(motion.solids());
         if (input.steady > 0 && fluid.steps() % steps_between == 0) {
             Snapshot now = snapshot();
-            latest_change = change(before, now);
+            const double fastest = fluid.max_mach() / std::numbers::sqrt3 * input.fluid.dx / fluid.dt();
+            latest_change = change(before, now, fastest, input.fluid.viscosity, radius);
             converged = latest_change < input.steady;
             before = std::move(now);
         }

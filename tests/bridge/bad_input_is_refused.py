@@ -118,6 +118,22 @@ def a_second_fluid_is_refused():
     fluid = one_sphere()
     O.engines = O.engines + [box((12, 12, 12), label="other")]
     refused_by_plan_and_run("two LbmEngines in O.engines", fluid)
+    O.engines = engines(fluid)[:4] + [fluid, NewtonIntegrator()]
+    refused_by_plan_and_run("two LbmEngines in O.engines", fluid)
+
+
+def a_place_where_loads_are_lost_is_refused():
+    fluid = one_sphere()
+    O.engines = O.engines[:3] + [NewtonIntegrator(), fluid]
+    refused_by_plan_and_run("LbmEngine stands after NewtonIntegrator", fluid)
+    O.engines = [fluid] + engines(box((12, 12, 12)))[:3] + [NewtonIntegrator()]
+    refused_by_plan_and_run("LbmEngine stands before ForceResetter", fluid)
+
+
+def a_free_sphere_without_mass_is_refused():
+    fluid = one_sphere(fixed=False)
+    O.bodies[0].state.mass = 0
+    refused_by_plan_and_run("sphere 0: mass = 0", fluid)
 
 
 def a_time_step_that_is_no_number_is_refused():
@@ -164,6 +180,8 @@ def attributes_are_fixed_once_the_fluid_exists():
     for name, value in dict(dx=2e-3, upper=(1, 1, 1), gravity=(0, 0, -1), tau=1.0, maxMach=0.1).items():
         check_raises(RuntimeError, "LbmEngine.%s cannot be changed any more" % name, lambda: setattr(fluid, name, value))
     fluid.mask, fluid.ids, fluid.label = 1, [0], "still"
+    fluid.ids = [77]
+    check_raises(RuntimeError, "LbmEngine.ids: body 77 does not exist", lambda: O.run(200, True))
 
 
 def queries_need_a_fluid():
@@ -178,9 +196,9 @@ def queries_need_a_fluid():
 
 def what_is_likely_not_meant_is_said():
     fluid = one_sphere(gravity=(0, 0, -9.81), boundary=PERIODIC)
-    O.engines = O.engines[:3] + [NewtonIntegrator(gravity=(0, 0, -9.8)), fluid]
+    O.engines = O.engines[:4] + [NewtonIntegrator(gravity=(0, 0, -9.8))]
     plan = fluid.plan()
-    for text in ("damping = 0.2", "-9.8) and LbmEngine.gravity = (0, 0, -9.81) differ", "stands after", "is periodic and"):
+    for text in ("damping = 0.2", "-9.8) and LbmEngine.gravity = (0, 0, -9.81) differ", "is periodic and"):
         check(any(text in warning for warning in plan.warnings), "no warning says %r: %s" % (text, plan.warnings))
         check(text in str(plan), "report does not say %r" % text)
 
@@ -197,6 +215,8 @@ prove(
     spheres_that_the_lattice_cannot_hold_are_refused,
     a_position_that_is_not_a_number_is_refused,
     a_second_fluid_is_refused,
+    a_place_where_loads_are_lost_is_refused,
+    a_free_sphere_without_mass_is_refused,
     a_time_step_that_is_no_number_is_refused,
     too_fast_for_the_lattice_is_refused_before_the_run,
     too_fast_for_the_lattice_stops_the_run,

@@ -156,6 +156,49 @@ def bodies_may_come_and_go():
     check_close(fluid.solidFraction.sum(), 0, 1e-12, "solid volume without bodies")
 
 
+def a_body_made_again_or_moved_afar_gets_no_kick():
+    fluid = one_sphere((14, 14, 24), radius=3e-3, fixed=False, tau=TAU, **DRIVE)
+    O.dt = STEP
+    O.bodies[0].state.vel = (0, 0, 0.02)
+    O.run(20, True)
+    O.bodies.clear()
+    O.bodies.append(sphere((7e-3, 7e-3, 5e-3), 3e-3))
+    O.run(1, True)
+    stokes = 6 * math.pi * FLUID["viscosity"] * 3e-3 * 0.02  # a kick would be sixty times this
+    check(fluid.fluidForce(0).norm() < 5 * stokes, "kick on a body made again: %s" % fluid.fluidForce(0))
+    O.bodies[0].state.pos = (7e-3, 7e-3, 19e-3)
+    O.run(1, True)
+    check(fluid.fluidForce(0).norm() < 5 * stokes, "kick on a body moved afar: %s" % fluid.fluidForce(0))
+
+
+def an_engine_used_again_after_a_reset_starts_anew():
+    fluid = one_sphere(tau=TAU, **DRIVE)
+    O.dt = STEP
+    O.run(10, True)
+    O.reset()
+    O.bodies.append(sphere((6e-3, 6e-3, 6e-3), 4e-3, fixed=True))
+    O.engines = engines(fluid)
+    O.dt = STEP
+    O.run(3, True)
+    check(fluid.fluidSteps == 3, "%d fluid steps" % fluid.fluidSteps)
+
+
+def a_settling_sphere_hardly_notices_a_change_of_the_time_step():
+    """By a factor of 40, so that tau goes from 0.8 to 0.52; the sphere's terminal velocity is the measure."""
+    fluid = one_sphere((14, 14, 24), radius=3e-3, fixed=False, inertia=False)
+    O.bodies[0].state.pos = (7e-3, 7e-3, 16e-3)
+    O.engines = engines(fluid, gravity=(0, 0, -0.01))
+    O.dt = 1e-2
+    O.run(400, True)
+    drag, speed, step = fluid.fluidForce(0)[2], O.bodies[0].state.vel[2], fluid.fluidDt
+    O.dt = 1e-2 / 40
+    for _ in range(40):
+        O.run(10, True)
+        check_close(fluid.fluidForce(0)[2] / drag, 1, 0.05, "drag")
+        check_close(O.bodies[0].state.vel[2] / speed, 1, 0.01, "speed")
+    check(fluid.fluidDt < step / 10, "fluidDt is still %g" % fluid.fluidDt)
+
+
 def mask_and_ids_choose_bodies_at_any_time():
     fluid = one_sphere((12, 12, 24), radius=3e-3, tau=TAU, **DRIVE)
     O.bodies.append(sphere((6e-3, 6e-3, 4e-3), 2.5e-3, fixed=True, mask=4))
@@ -224,6 +267,9 @@ prove(
     a_dead_fluid_is_frozen_and_pushes_nothing,
     a_fluid_born_dead_starts_later,
     bodies_may_come_and_go,
+    a_body_made_again_or_moved_afar_gets_no_kick,
+    an_engine_used_again_after_a_reset_starts_anew,
+    a_settling_sphere_hardly_notices_a_change_of_the_time_step,
     mask_and_ids_choose_bodies_at_any_time,
     members_of_a_clump_are_in_the_fluid,
     timing_shows_the_parts,

@@ -28,8 +28,7 @@ def alone():
         path = os.path.join(folder, "case.json")
         with open(path, "w") as file:
             json.dump(case, file)
-        # its exit status says that the flow is not steady yet, which is meant
-        run = subprocess.run([os.environ["LBM_PROGRAM"], "run", path], stdout=subprocess.PIPE, text=True)
+        run = subprocess.run([os.environ["LBM_PROGRAM"], "run", path], stdout=subprocess.PIPE, text=True, check=True)
     return json.loads(run.stdout)
 
 

@@ -72,6 +72,13 @@ class Results(unittest.TestCase):
                 drags.append(drag(case, result))
             self.assertLess(max(drags) / min(drags) - 1, 1e-7)
 
+    def test_a_flow_without_net_velocity_or_force_becomes_steady(self):
+        spinning = array(10, acceleration=[0, 0, 0])
+        spinning["solids"][0].update(moving=True, angular_velocity=[0, 0, 1e-2])
+        status, result, message = run(spinning)
+        self.assertEqual(status, 0, message)
+        self.assertLess(result["solids"][0]["torque"][2], 0)
+
     def test_force_permeability_and_velocity_belong_together(self):
         case = array()
         _, result, _ = run(case)
@@ -126,6 +133,7 @@ class Messages(unittest.TestCase):
         self.refused("stop.max_steps: must be a whole number", array(stop={"max_steps": -1}))
         solid = dict(array()["solids"][0], colour="red")
         self.refused("solids[0].colour: unknown key", array(solids=[solid]))
+        self.refused("a solid is free or moving", array(solids=[dict(array()["solids"][0], free=True, moving=True, density=1)]))
         self.refused("boundaries.x.max: missing", array(boundaries={"x": {"min": {"type": "noSlip"}}}))
         self.refused('boundaries.x.min.type = "wet"', array(boundaries={"x": {"min": {"type": "wet"}, "max": {}}}))
 
@@ -147,6 +155,7 @@ class Messages(unittest.TestCase):
         self.assertEqual(status, 3)
         self.assertFalse(result["converged"])
         self.assertIn("raise stop.max_steps", message)
+        self.refused("output.vtk: /nowhere/at/all.vti cannot be written", array(output={"vtk": "/nowhere/at/all.vti"}))
         status, _, message = run(array(acceleration=[1e3, 0, 0]))
         self.assertEqual(status, 3)
         self.assertIn("above the limit", message)

@@ -5,6 +5,7 @@
 #include "lbm/fluid_config.hpp"
 #include "physics/sphere_fraction.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -93,7 +94,7 @@ private:
             const Vec3 &W = solid.angular_velocity, &r = share.r;
             const Vec3 spin{W[1] * r[2] - W[2] * r[1], W[2] * r[0] - W[0] * r[2], W[0] * r[1] - W[1] * r[0]};
             const double R = solid.radius;
-            const double k = Lambda_ == 0.125 ? 2.04 + 4.4 / R : 1.93 + 9.05 * Lambda_ + (1.9 + 17 * Lambda_) / R;
+            const double k = Lambda_ == 0.125 ? 2.04 + 4.7 / R : 1.93 + 9.05 * Lambda_ + (1.9 + 17 * Lambda_) / R;
             sum += share.epsilon;
             k_eps += k * share.epsilon;
             u_s += share.epsilon * (solid.velocity + spin);
@@ -104,7 +105,7 @@ private:
             u_s = (1 / sum) * u_s;
         }
         const double lam = Lambda_ == 0.125 ? (1 - eps) / (1 + 3 * eps) + 0.05 * eps : 1;
-        const double kk = k_eps * Lp / (m + k_eps * Lp / 2);
+        const double kk = k_eps * Lp / (std::max(m, 0.02) + k_eps * Lp / 2);
         const double omega_plus = 1 / c_.tau, omega_minus = 1 / (Lm * lam + 0.5);
 
         double rho = 1;

@@ -28,7 +28,8 @@ static_assert(offsetof(Body, shape) == 72 && offsetof(Body, clumpId) == 152);
 static_assert(offsetof(BodyContainer, body) == 24 && offsetof(Shape, color) == 64 && offsetof(Sphere, radius) == 96);
 static_assert(offsetof(Scene, forces) == 32 && offsetof(Scene, dt) == 440 && offsetof(Scene, iter) == 448);
 static_assert(offsetof(Scene, time) == 464 && offsetof(Scene, isPeriodic) == 496);
-static_assert(offsetof(Scene, engines) == 552 && offsetof(Scene, bodies) == 600 && offsetof(Scene, cell) == 688);
+static_assert(offsetof(Scene, engines) == 552 && offsetof(Scene, _nextEngines) == 576 &&
+              offsetof(Scene, bodies) == 600 && offsetof(Scene, cell) == 688);
 static_assert(offsetof(Cell, hSize) == 736 && offsetof(Cell, prevHSize) == 808 && offsetof(Cell, velGrad) == 880);
 
 }  // namespace yade

@@ -45,12 +45,24 @@ bp::object to_list(const std::vector<T>& values)
 
 void from_python(const char* name, const bp::object& value, double& result)
 {
-    extract_as(name, value, "a number", result);
+    // what says that it is a number, NumPy's scalars included
+    if (!PyNumber_Check(value.ptr()) || PyUnicode_Check(value.ptr())) type_error(name, value, "a number");
+    result = PyFloat_AsDouble(value.ptr());
+    if (PyErr_Occurred()) {
+        PyErr_Clear();
+        type_error(name, value, "a number");
+    }
 }
 
 void from_python(const char* name, const bp::object& value, int& result)
 {
-    extract_as(name, value, "a whole number", result);
+    const bool whole = PyIndex_Check(value.ptr());
+    const long number = whole ? PyLong_AsLong(bp::object(bp::handle<>(PyNumber_Index(value.ptr()))).ptr()) : 0;
+    if (!whole || PyErr_Occurred() || number != static_cast<int>(number)) {
+        PyErr_Clear();
+        type_error(name, value, "a whole number");
+    }
+    result = static_cast<int>(number);
 }
 
 void from_python(const char* name, const bp::object& value, bool& result)

@@ -45,8 +45,8 @@ lbm::Solid solid(const Body& body, double lead, unsigned blocked)
         for (int d = 0; d < 3; ++d) result.position[d] += lead * result.velocity[d];
     // the bits of YADE's State: translations in the lower three, rotations in the next three
     constexpr unsigned kTranslations = 7, kRotations = 56;
-    if (state.mass > 0 && (blocked & kTranslations) != kTranslations) result.mass = state.mass;
-    if (state.inertia[0] > 0 && (blocked & kRotations) != kRotations) result.inertia = state.inertia[0];
+    if ((blocked & kTranslations) != kTranslations) result.mass = state.mass;
+    if ((blocked & kRotations) != kRotations) result.inertia = state.inertia[0];
     return result;
 }
 

@@ -55,7 +55,11 @@ void LbmEngine::action()
 void LbmEngine::advance()
 {
     const std::lock_guard lock(mutex_);
-    if (!failure_.empty()) throw lbm::RunError("LbmEngine: the fluid stopped earlier: " + failure_);
+    if (fluid_ && (started_in_ != scene || scene->iter < last_iter_))
+        forget();  // O.reset, and the engine in another scene
+    if (!failure_.empty())
+        throw lbm::RunError("LbmEngine: the fluid stopped earlier and is lost: " + failure_ +
+                            "; put a new LbmEngine, which starts from rest, into O.engines");
     if (!fluid_) start();
     bool spread = follow_grains();
     if (replan_ && schedule_.fluid_step_due()) follow_time_step();
@@ -70,10 +74,20 @@ void LbmEngine::advance()
     account(kLoadsOut, out.seconds(), 1);
 }
 
+void LbmEngine::forget()
+{
+    fluid_.reset();
+    held_ = HeldLoads();
+    failure_.clear();
+    last_iter_ = -1;
+    replan_ = selection_changed_ = false;
+}
+
 void LbmEngine::start()
 {
+    started_in_ = scene;
     read_solids(*scene, {settings_.mask, settings_.ids}, 0, solids_);
-    check_scene(*scene, settings_, *this, solids_);
+    check_scene(*scene, settings_, solids_);
     const lbm::Plan plan = plan_for_scene(*scene, settings_, solids_, settings_.tau);
     auto fluid = std::make_unique<lbm::Fluid>(fluid_config(settings_, plan.tau, std::max(0, ompThreads)));
     schedule_ = Schedule(scene->dt, fluid->dt());
@@ -107,11 +121,15 @@ void LbmEngine::follow_time_step()
     replan_ = false;
     if (!std::isnan(settings_.tau)) return;
     read_solids(*scene, {settings_.mask, settings_.ids}, 0, solids_);
-    const lbm::Plan plan = plan_for_scene(*scene, settings_, solids_, settings_.tau);
-    const double ratio = plan.fluid_dt / fluid_->dt();
-    if (ratio < kPoorFit && ratio > 1 / kPoorFit) return;
-    fluid_->change_tau(plan.tau);
-    schedule_.change_fluid_dt(fluid_->dt());
+    try {
+        const lbm::Plan plan = plan_for_scene(*scene, settings_, solids_, settings_.tau);
+        const double ratio = plan.fluid_dt / fluid_->dt();
+        if (ratio < kPoorFit && ratio > 1 / kPoorFit) return;
+        fluid_->change_tau(plan.tau);
+        schedule_.change_fluid_dt(fluid_->dt());
+    } catch (const lbm::ConfigError&) {
+        // no better step than the present one, and that one still does: any ratio to the grains' step works
+    }
 }
 
 /// A time stepper that stands behind the fluid changes O.dt after the loads were written: ask how far the scene's time
@@ -129,9 +147,12 @@ double LbmEngine::length_of_last_grain_step(const yade::Scene& now) const
 
 void LbmEngine::step_fluid()
 {
+    check_place(*scene);
     check_cell(*scene, settings_);
     const Stopwatch in;
     read_solids(*scene, {settings_.mask, settings_.ids}, schedule_.lead(), solids_);
+    if (selection_changed_) check_selection(settings_, solids_);
+    selection_changed_ = false;
     account(kStatesIn, in.seconds(), 1);
 
     const lbm::StepTimes before = fluid_->times();
@@ -171,10 +192,11 @@ FluidPlan LbmEngine::plan() const
     const yade::Scene& now = *Singleton<yade::Omega>::instance().getScene();
     std::vector<lbm::Solid> solids;
     read_solids(now, {settings_.mask, settings_.ids}, 0, solids);
-    check_scene(now, settings_, *this, solids);
-    FluidPlan plan{plan_for_scene(now, settings_, solids, fluid_ ? fluid_->config().tau : settings_.tau),
+    check_scene(now, settings_, solids);
+    FluidPlan plan{plan_for_scene(now, settings_, solids, fluid_ ? fluid_->config().tau : settings_.tau,
+                                  fluid_ ? "that of the running fluid" : "tau was given"),
                    fluid_cells()};
-    for (const std::string& warning : scene_warnings(now, settings_, *this)) {
+    for (const std::string& warning : scene_warnings(now, settings_)) {
         plan.warnings.push_back(warning);
         if (!plan.report.empty() && plan.report.back() != '\n') plan.report += '\n';
         plan.report += "  warning: " + warning + '\n';

@@ -10,6 +10,7 @@
 #include <core/GlobalEngine.hpp>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -45,9 +46,12 @@ public:
     void pyRegisterClass(boost::python::object scope) override;
 
     const Settings& settings() const { return settings_; }
-    /// @throws std::runtime_error  if the fluid exists and `name` may not change any more
-    void require_changeable(const char* name, bool live) const;
-    void change_settings(const Settings& settings) { settings_ = settings; }
+    /**
+     * Changes the attribute `name`; nothing changes if `change` throws.
+     * @param live  whether it may change while the fluid exists
+     * @throws std::runtime_error  if the fluid exists and it may not
+     */
+    void change_settings(const char* name, bool live, const std::function<void(Settings&)>& change);
 
     FluidPlan plan() const;
 
@@ -76,6 +80,7 @@ private:
 
     void advance();
     void start();
+    void forget();
     bool follow_grains();
     void follow_time_step();
     double length_of_last_grain_step(const yade::Scene& now) const;
@@ -93,8 +98,10 @@ private:
     Schedule schedule_;
     HeldLoads held_;
     std::vector<lbm::Solid> solids_;  // of the last fluid step
+    bool selection_changed_ = false;  // mask or ids, while the fluid exists
     bool replan_ = false;             // O.dt has changed since the fluid's step was chosen
-    long last_iter_ = -1;             // of the scene, at the last action
+    const yade::Scene* started_in_ = nullptr;
+    long last_iter_ = -1;  // of the scene, at the last action
     double last_time_ = 0;
     std::string failure_;       // why the fluid cannot go on; empty: it can
     mutable std::mutex mutex_;  // YADE runs steps in a thread of their own while Python may ask

@@ -16,24 +16,6 @@ namespace {
 
 constexpr double kSameLength = 1e-6;  // relative, as for the whole number of cells
 
-void check_single(const yade::Scene& scene, const LbmEngine& engine)
-{
-    for (const auto& other : scene.engines)
-        if (other && other.get() != &engine && dynamic_cast<const LbmEngine*>(other.get()))
-            throw lbm::ConfigError("two LbmEngines in O.engines: a scene has one fluid; remove one of them");
-}
-
-void check_ids(const Settings& s, const std::vector<lbm::Solid>& solids)
-{
-    for (int id : s.ids)
-        if (std::none_of(solids.begin(), solids.end(), [id](const lbm::Solid& solid) { return solid.id == id; }))
-            throw lbm::ConfigError("LbmEngine.ids: body " + std::to_string(id) +
-                                   " does not exist, has no Sphere shape or is excluded by mask");
-    if (solids.empty())
-        throw lbm::ConfigError("LbmEngine: no body with a Sphere shape is selected (mask = " + std::to_string(s.mask) +
-                               "): append spheres to O.bodies first, or change mask");
-}
-
 void check_spheres(const Settings& s, const std::vector<lbm::Solid>& solids)
 {
     for (const lbm::Solid& solid : solids) {
@@ -54,10 +36,50 @@ void check_spheres(const Settings& s, const std::vector<lbm::Solid>& solids)
             if (!std::isfinite(solid.position[axis] + solid.velocity[axis] + solid.angular_velocity[axis]))
                 throw lbm::ConfigError("sphere " + std::to_string(solid.id) +
                                        ": position, velocity and angular velocity must be finite");
+        if (!(solid.mass > 0) || !(solid.inertia > 0))
+            throw lbm::ConfigError("sphere " + std::to_string(solid.id) + ": mass = " + text(solid.mass) +
+                                   ", inertia = " + text(solid.inertia) +
+                                   ": must be > 0 for a body that is free to move; give its "
+                                   "material a density, or block it");
     }
 }
 
 }  // namespace
+
+void check_place(const yade::Scene& scene)
+{
+    // O.engines assigned while a step is under way (or after one that failed) takes effect with the next step
+    const auto& engines = scene._nextEngines.empty() ? scene.engines : scene._nextEngines;
+    int fluids = 0;
+    bool integrated = false;
+    for (const auto& engine : engines) {
+        if (!engine) continue;
+        const std::string name = engine->getClassName();
+        integrated = integrated || name == "NewtonIntegrator";
+        if (name == "ForceResetter" && fluids > 0)
+            throw lbm::ConfigError(
+                "LbmEngine stands before ForceResetter in O.engines, which takes its loads away: put it after");
+        if (!dynamic_cast<const LbmEngine*>(engine.get())) continue;
+        if (++fluids > 1)
+            throw lbm::ConfigError(
+                "two LbmEngines in O.engines: a scene has one fluid, listed once; remove one of them");
+        if (integrated)
+            throw lbm::ConfigError(
+                "LbmEngine stands after NewtonIntegrator in O.engines, where its loads are lost when the "
+                "next step resets the forces: put it before");
+    }
+}
+
+void check_selection(const Settings& s, const std::vector<lbm::Solid>& solids)
+{
+    for (int id : s.ids)
+        if (std::none_of(solids.begin(), solids.end(), [id](const lbm::Solid& solid) { return solid.id == id; }))
+            throw lbm::ConfigError("LbmEngine.ids: body " + std::to_string(id) +
+                                   " does not exist, has no Sphere shape or is excluded by mask");
+    if (solids.empty())
+        throw lbm::ConfigError("LbmEngine: no body with a Sphere shape is selected (mask = " + std::to_string(s.mask) +
+                               "): append spheres to O.bodies first, or change mask");
+}
 
 void check_cell(const yade::Scene& scene, const Settings& s)
 {
@@ -78,19 +100,19 @@ void check_cell(const yade::Scene& scene, const Settings& s)
                                    "' while the scene is periodic: use 'periodic' for all faces");
 }
 
-void check_scene(const yade::Scene& scene, const Settings& s, const LbmEngine& engine,
-                 const std::vector<lbm::Solid>& solids)
+void check_scene(const yade::Scene& scene, const Settings& s, const std::vector<lbm::Solid>& solids)
 {
     check(s, true);
     if (!(std::isfinite(scene.dt) && scene.dt > 0))
         throw lbm::ConfigError("O.dt = " + text(scene.dt) + ": must be finite and > 0 [s]");
-    check_single(scene, engine);
+    check_place(scene);
     check_cell(scene, s);
-    check_ids(s, solids);
+    check_selection(s, solids);
     check_spheres(s, solids);
 }
 
-lbm::Plan plan_for_scene(const yade::Scene& scene, const Settings& s, const std::vector<lbm::Solid>& solids, double tau)
+lbm::Plan plan_for_scene(const yade::Scene& scene, const Settings& s, const std::vector<lbm::Solid>& solids, double tau,
+                         const char* why_tau)
 {
     lbm::PlanRequest request;
     request.cells = cells(s);
@@ -99,6 +121,7 @@ lbm::Plan plan_for_scene(const yade::Scene& scene, const Settings& s, const std:
     request.viscosity = s.viscosity;
     request.grain_dt = scene.dt;
     request.tau = tau;
+    request.why_tau = why_tau;
     request.max_mach = s.max_mach;
     request.speed = expected_speed(s, solids);
     double radii = 0;

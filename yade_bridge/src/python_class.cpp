@@ -38,11 +38,10 @@ bp::object construct(const bp::tuple& args, const bp::dict& keywords)
 
 void set_checked(LbmEngine& engine, const Attribute& attribute, const bp::object& value)
 {
-    engine.require_changeable(attribute.name, attribute.live);
-    Settings changed = engine.settings();
-    attribute.set(changed, value);
-    check_values(changed);
-    engine.change_settings(changed);
+    engine.change_settings(attribute.name, attribute.live, [&](Settings& settings) {
+        attribute.set(settings, value);
+        check_values(settings);
+    });
 }
 
 lbm::Vec3 position(const bp::object& value)
@@ -145,12 +144,17 @@ void define_queries(PythonClass& python_class)
 
 }  // namespace
 
-void LbmEngine::require_changeable(const char* name, bool live) const
+void LbmEngine::change_settings(const char* name, bool live, const std::function<void(Settings&)>& change)
 {
+    const std::lock_guard lock(mutex_);
     if (fluid_ && !live)
         throw std::runtime_error(std::string("LbmEngine.") + name +
                                  " cannot be changed any more: the fluid exists since the first step. Make a new "
                                  "LbmEngine, or set it before the first step");
+    Settings changed = settings_;
+    change(changed);
+    settings_ = changed;
+    selection_changed_ = true;
 }
 
 void LbmEngine::pySetAttr(const std::string& key, const bp::object& value)

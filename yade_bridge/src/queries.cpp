@@ -102,7 +102,11 @@ void LbmEngine::save_vtk(const std::string& path) const
     fluid("saveVtk").save_vtk(path);
 }
 
-double LbmEngine::fluid_dt() const { return fluid_ ? fluid_->dt() : std::numeric_limits<double>::quiet_NaN(); }
+double LbmEngine::fluid_dt() const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid_ ? fluid_->dt() : std::numeric_limits<double>::quiet_NaN();
+}
 
 double LbmEngine::steps_per_fluid_step() const
 {
@@ -111,8 +115,16 @@ double LbmEngine::steps_per_fluid_step() const
     return std::abs(ratio - whole) < 1e-9 * whole ? whole : ratio;  // planned whole, up to round-off
 }
 
-std::int64_t LbmEngine::fluid_steps() const { return fluid_ ? fluid_->steps() : 0; }
+std::int64_t LbmEngine::fluid_steps() const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid_ ? fluid_->steps() : 0;
+}
 
-double LbmEngine::fluid_time() const { return fluid_ ? fluid_->time() : 0.0; }
+double LbmEngine::fluid_time() const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid_ ? fluid_->time() : 0.0;
+}
 
 }  // namespace yadelbm

@@ -30,20 +30,12 @@ void warn_about_integrator(const bp::object& integrator, const Settings& s, std:
 
 }  // namespace
 
-std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& s, const LbmEngine& engine)
+std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& s)
 {
     std::vector<std::string> warnings;
-    bool integrated = false;
     for (const auto& other : scene.engines) {
         if (!other) continue;
-        if (other.get() == &engine && integrated)
-            warnings.emplace_back(
-                "LbmEngine stands after NewtonIntegrator in O.engines: its loads are lost when the next "
-                "step resets the forces; put it before.");
-        if (other->getClassName() == "NewtonIntegrator") {
-            integrated = true;
-            warn_about_integrator(bp::object(other), s, warnings);
-        }
+        if (other->getClassName() == "NewtonIntegrator") warn_about_integrator(bp::object(other), s, warnings);
     }
     const bool periodic_fluid = std::find(s.boundary.begin(), s.boundary.end(), "periodic") != s.boundary.end();
     if (periodic_fluid && !scene.isPeriodic)

@@ -41,7 +41,7 @@ public:
 
     /**
      * The solids that are in the fluid now. They replace the earlier set: a solid is known by its id, one that was there before
-     * keeps its momentum bookkeeping, new ones start consistent with the flow around them, the others leave. A
+     * keeps its momentum bookkeeping (unless it jumped by more than its radius), new ones start consistent with the flow around them, the others leave. A
      * solid that has not moved costs nothing. Spheres may overlap each other and stand out of no-slip faces.
      * @throws ConfigError  for a radius below two cells or a sphere larger than the box, a value that is not finite, an id given twice
      */

@@ -18,6 +18,7 @@ struct PlanRequest {
     double viscosity = 0;                                   ///< dynamic [Pa s]
     double grain_dt = 0;                                    ///< time step of the grains [s]
     double tau = std::numeric_limits<double>::quiet_NaN();  ///< NaN: to be chosen
+    const char* why_tau = "tau was given";                  ///< for the report, where tau is not NaN
     double max_mach = 0.2;                                  ///< limit for the Mach number at `speed`
     double speed = 0;                                       ///< largest speed expected of fluid, walls or grains [m/s]
     double smallest_radius = std::numeric_limits<double>::infinity();  ///< of the solids [m]
@@ -29,7 +30,7 @@ struct Plan {
     double tau = 0;
     double fluid_dt = 0;  ///< [s]
     double steps_per_fluid_step =
-        0;                ///< grain steps in one fluid step; whole (or one over a whole number) unless tau was given
+        0;                ///< grain steps in one fluid step; whole, or one over a whole number, where that fits
     double mach = 0;      ///< at the expected speed
     double reynolds = 0;  ///< of a grain of mean diameter at that speed; 0 without solids
     double cells_per_diameter = 0;     ///< of the smallest solid; 0 without solids

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 
 namespace lbm {
 namespace {
@@ -38,8 +39,13 @@ FluidConfig validated(const FluidConfig& config)
 std::variant<Populations<double>, Populations<float>> make_populations(const FluidConfig& c)
 {
     const ThreadCount threads(c.threads);
-    if (c.storage == Storage::single_precision) return Populations<float>(c.cells);
-    return Populations<double>(c.cells);
+    try {
+        if (c.storage == Storage::single_precision) return Populations<float>(c.cells);
+        return Populations<double>(c.cells);
+    } catch (const std::bad_alloc&) {
+        throw ConfigError(message("cells = ", c.cells[0], " x ", c.cells[1], " x ", c.cells[2],
+                                  ": more memory than there is; use a larger dx, or single storage"));
+    }
 }
 
 class Stopwatch {
@@ -86,14 +92,25 @@ LatticeSphere Fluid::Implementation::in_lattice_units(const Solid& solid) const
     return sphere;
 }
 
+bool Fluid::Implementation::is_same(const Solid& now, const Solid& before) const
+{
+    double distance2 = 0;
+    for (int d = 0; d < 3; ++d) {
+        double moved = now.position[d] - before.position[d];
+        const double length = config.cells[d] * config.dx;
+        if (config.faces[2 * d].type == FaceType::periodic) moved -= length * std::round(moved / length);
+        distance2 += moved * moved;
+    }
+    return now.id == before.id && now.radius == before.radius && distance2 <= now.radius * now.radius;
+}
+
 void Fluid::Implementation::place(const std::vector<Solid>& now)
 {
     const ThreadCount threads(config.threads);
     Stopwatch watch;
     const auto count = static_cast<std::ptrdiff_t>(now.size());
     bool same_ids = now.size() == solids.size();
-    for (std::ptrdiff_t s = 0; same_ids && s < count; ++s)
-        same_ids = now[s].id == solids[s].id && now[s].radius == solids[s].radius;
+    for (std::ptrdiff_t s = 0; same_ids && s < count; ++s) same_ids = is_same(now[s], solids[s]);
     validate(config, now);
     if (!same_ids) require_unique_ids(now);
 
@@ -108,7 +125,7 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
             continue;
         }
         const auto found = index_of_id.find(now[s].id);
-        const bool known = found != index_of_id.end() && solids[found->second].radius == now[s].radius;
+        const bool known = found != index_of_id.end() && is_same(now[s], solids[found->second]);
         previous[s] = known ? found->second : -1;
         any_new = any_new || !known;
     }
@@ -205,11 +222,9 @@ void Fluid::Implementation::change_tau(double tau)
     const auto after = momenta_inside();
     for (std::size_t i = 0; i < ledgers.size(); ++i) {
         LoadLedger& ledger = ledgers[i];
-        ledger.momentum = after[i].momentum - (s * s) * (before[i].momentum - ledger.momentum);
-        ledger.angular_momentum =
-            after[i].angular_momentum - (s * s) * (before[i].angular_momentum - ledger.angular_momentum);
-        ledger.owed = s * ledger.owed;
-        ledger.owed_moment = s * ledger.owed_moment;
+        ledger.change_time_step(s, after[i].momentum - (s * s) * (before[i].momentum - ledger.momentum),
+                                after[i].angular_momentum -
+                                    (s * s) * (before[i].angular_momentum - ledger.angular_momentum));
     }
 }
 

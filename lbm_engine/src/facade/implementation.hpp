@@ -52,6 +52,8 @@ struct Fluid::Implementation {
     explicit Implementation(const FluidConfig& c);
 
     void place(const std::vector<Solid>& now);
+    /// Whether a solid goes on being what it was; one that jumped by more than its radius is another one.
+    bool is_same(const Solid& now, const Solid& before) const;
     void step();
     void change_tau(double tau);
     double time() const { return time_before_dt + static_cast<double>(steps - steps_before_dt) * dt; }

@@ -34,7 +34,7 @@ Vec3 Fluid::total_momentum() const
 {
     const auto& fluid = *implementation_;
     Vec3 sum = fluid.sum_cells<Vec3>([](const CellState& cell) { return cell.momentum; });
-    for (const LoadLedger& ledger : fluid.ledgers) sum += ledger.owed - ledger.momentum;
+    for (const LoadLedger& ledger : fluid.ledgers) sum += ledger.outstanding() - ledger.momentum;
     return fluid.units.momentum * sum;
 }
 

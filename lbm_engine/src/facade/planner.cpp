@@ -32,7 +32,7 @@ Step given_step(const PlanRequest& r, double nu)
         throw ConfigError(message("tau = ", r.tau, ": must lie between ", kMinTau, " and ", kMaxTau,
                                   "; leave it out to have it chosen from the time step of the grains"));
     const double dt = fluid_time_step(r.tau, r.dx, nu);
-    return {dt, dt / r.grain_dt, "tau was given"};
+    return {dt, dt / r.grain_dt, r.why_tau};
 }
 
 Step chosen_step(const PlanRequest& r, double nu)
@@ -57,10 +57,9 @@ Step chosen_step(const PlanRequest& r, double nu)
         throw ConfigError(message("Mach number ", mach(r, smallest_dt), " at the expected speed of ", r.speed,
                                   " m/s even with the smallest tau, ", kMinPlannedTau, ": above the limit ", r.max_mach,
                                   "; use dx <= ", r.dx * r.max_mach / mach(r, smallest_dt), " m, or raise maxMach"));
+    // Any ratio works; whole ones are only neater.
     const double fits = std::min(largest_dt, mach_dt);
-    throw ConfigError(message("no whole number of grain steps of ", r.grain_dt, " s makes a fluid step between ",
-                              smallest_dt, " s (tau ", kMinPlannedTau, ") and ", fits, " s (tau ",
-                              relaxation_time(fits, r.dx, nu), "): use a grain step of at most ", fits, " s"));
+    return {fits, fits / r.grain_dt, "no whole number of grain steps fits, so it goes by time"};
 }
 
 double lattice_bytes(const std::array<int, 3>& cells)
@@ -91,7 +90,7 @@ std::string report(const PlanRequest& r, const Plan& p, const char* why)
     std::ostringstream out;
     out.precision(4);
     const auto line = [&](const char* name, const auto&... value) {
-        out << "  " << std::left << std::setw(26) << name;
+        out << "  " << std::left << std::setw(28) << name;
         (out << ... << value) << '\n';
     };
     out << "Fluid time step: " << why << '\n';
@@ -118,6 +117,7 @@ std::string report(const PlanRequest& r, const Plan& p, const char* why)
 Plan plan_time_step(const PlanRequest& r)
 {
     require_positive("dx", r.dx, "m");
+    require_countable(r.cells);
     require_positive("density", r.density, "kg/m3");
     require_positive("viscosity", r.viscosity, "Pa s");
     require_positive("time step of the grains", r.grain_dt, "s");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lbm/errors.hpp"
+#include "lbm/fluid_config.hpp"
 
 #include <cmath>
 #include <sstream>
@@ -23,6 +24,13 @@ inline void require_positive(const char* name, double value, const char* unit)
 {
     if (!(std::isfinite(value) && value > 0))
         throw ConfigError(message(name, " = ", value, ": must be finite and > 0 [", unit, "]"));
+}
+
+/// @throws ConfigError  if there are more cells than kMaxCells
+inline void require_countable(const std::array<int, 3>& cells)
+{
+    const double count = double(cells[0]) * cells[1] * cells[2];
+    if (count > kMaxCells) throw ConfigError(message("cells = ", count, ": at most ", kMaxCells, "; use a larger dx"));
 }
 
 }  // namespace lbm

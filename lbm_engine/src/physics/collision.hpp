@@ -161,7 +161,7 @@ template <class V>
 /**
  * One collision of a partially saturated cell, exact in tau for Stokes flow (superposition form, docs/physics.md):
  *
- *     kk   = k eps Lp / (m + k eps Lp / 2),   m = 1 - eps
+ *     kk   = k eps Lp / (max(m, 0.02) + k eps Lp / 2),   m = 1 - eps
  *     Lm_c = Lm lam(eps),   omega-_c = 1 / (Lm_c + 1/2)
  *     u    = (sum f c + m F / 2) / rho
  *     F_s  = kk rho (u_s - u),   u_phys = u + F_s / (2 rho)
@@ -174,7 +174,8 @@ template <bool inertia, class V>
 {
     const V m = 1 - s.epsilon;
     const V kLp = p.rates.Lp * s.strength;
-    const V kk = kLp / (m + 0.5 * kLp);
+    const V least = V{} + kLeastFluidFraction;
+    const V kk = kLp / ((m > least ? m : least) + 0.5 * kLp);
     const V omega_minus = cell_omega_minus(p, s.epsilon);
     const Moments<V> mo = moments(f);
     V u[3], odd[3], even_2[3], total_force[3];

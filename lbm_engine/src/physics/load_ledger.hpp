@@ -2,6 +2,8 @@
 
 #include "lattice/vec3.hpp"
 
+#include <algorithm>
+
 namespace lbm {
 
 /**
@@ -18,6 +20,8 @@ namespace lbm {
 struct LoadLedger {
     Vec3 momentum{}, angular_momentum{};  ///< P_in, L_in after the last step
     Vec3 owed{}, owed_moment{};
+    Vec3 arrears{}, arrears_moment{};  ///< owed from before a change of the time step, passed on little by little
+    double arrears_rate = 0;           ///< part of them in each step
 
     struct Load {
         Vec3 force, torque;
@@ -39,7 +43,30 @@ struct LoadLedger {
         const Load load{share * owed, spin_share * owed_moment};
         owed -= load.force;
         owed_moment -= load.torque;
-        return load;
+        const Load old{arrears_rate * arrears, arrears_rate * arrears_moment};
+        arrears -= old.force;
+        arrears_moment -= old.torque;
+        return {load.force + old.force, load.torque + old.torque};
+    }
+
+    /// All that was taken and not passed on yet.
+    Vec3 outstanding() const { return owed + arrears; }
+
+    /**
+     * The time step becomes s times what it was (lattice units change with it). In a steady motion what is owed goes with dt^2; the
+     * difference is paid, or saved up, over some twenty of the longer steps, so that the load does not jump.
+     * @param inside, angular_inside  P_in, L_in that the load of the next step is to be counted from
+     */
+    void change_time_step(double s, const Vec3& inside, const Vec3& angular_inside)
+    {
+        momentum = inside;
+        angular_momentum = angular_inside;
+        const double steady = s * s * s;
+        arrears = s * arrears + (s - steady) * owed;
+        arrears_moment = s * arrears_moment + (s - steady) * owed_moment;
+        owed = steady * owed;
+        owed_moment = steady * owed_moment;
+        arrears_rate = 0.05 * std::min(s, 1.0);
     }
 };
 

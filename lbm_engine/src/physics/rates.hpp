@@ -26,10 +26,14 @@ struct TrtRates {
 /// The magic parameter of the low-noise parameter set (LN).
 inline constexpr double kLambdaLowNoise = 0.125;
 
+/// The fluid fraction that the weight of a cell sees is at least this. A full cell then is a solid with a permeability of (1/450) dx^2: no
+/// flow to speak of, but its pressure settles in some hundred steps per unit of tau, where at 0 it would be frozen.
+inline constexpr double kLeastFluidFraction = 0.02;
+
 /**
  * The weighting of partially saturated cells: two parameter sets, both exact in tau.
  *
- *     LN  (lambda = 1/8)   lam(eps) = (1 - eps) / (1 + 3 eps) + eps / 20,   k = 2.04 + 4.4 / R
+ *     LN  (lambda = 1/8)   lam(eps) = (1 - eps) / (1 + 3 eps) + eps / 20,   k = 2.04 + 4.7 / R
  *     R   (any lambda)     lam(eps) = 1,                                    k = 1.93 + 9.05 lambda + (1.9 + 17 lambda) / R
  *
  * lam scales Lm in a cut cell; k is the strength of the solid force for a surface of radius of curvature R cells.
@@ -42,7 +46,7 @@ struct Weighting {
     constexpr explicit Weighting(double lambda)
         : low_noise(lambda == kLambdaLowNoise)
         , k_flat(low_noise ? 2.04 : 1.93 + 9.05 * lambda)
-        , k_curved(low_noise ? 4.4 : 1.9 + 17 * lambda)
+        , k_curved(low_noise ? 4.7 : 1.9 + 17 * lambda)
     {
     }
 
