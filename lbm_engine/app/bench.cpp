@@ -56,7 +56,7 @@ std::vector<std::string> words(const std::string& option, const std::string& lis
 {
     for (const std::string& part : split(list))
         if (std::find(allowed.begin(), allowed.end(), part) == allowed.end())
-            throw ConfigError(option + " " + part + ": unknown");
+            throw ConfigError(std::string(option).append(" ").append(part).append(": unknown"));
     return split(list);
 }
 

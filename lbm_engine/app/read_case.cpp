@@ -63,7 +63,7 @@ public:
     /// @throws ConfigError unless the value is one of those listed
     std::string choice(const char* key, const std::string& otherwise, std::initializer_list<const char*> allowed)
     {
-        const std::string value = text(key, otherwise);
+        std::string value = text(key, otherwise);
         std::string list;
         for (const char* one : allowed) {
             if (value == one) return value;

@@ -232,3 +232,5 @@ sediment_picture.draw(picture, sediment.pictures, sediment.history, sediment.spe
 print()
 print(text(result))
 print(f"picture: {picture}", flush=True)
+if not result["at_rest"]:
+    sys.exit(f"the grains did not come to rest within {TIME_LIMIT} s")

@@ -69,7 +69,7 @@ public:
     std::int64_t steps() const noexcept;
     double max_mach() const noexcept;  ///< largest Mach number seen in the last step [-]
     StepTimes times() const noexcept;
-    std::size_t memory_bytes() const noexcept;  ///< populations and solids' maps
+    std::size_t memory_bytes() const;  ///< populations and solids' maps
 
     Vec3 average_velocity() const;  ///< superficial: over all cells, solid ones included [m/s]
     double permeability() const;    ///< nu U.a / |a|^2 for the drive a [m2]; NaN without one

@@ -125,14 +125,15 @@ void Faces::restore(T* f, bool odd) const
     }
 }
 
-#define LBM_INSTANTIATE(T)                                                                                             \
-    template void Faces::fill_row(T*, int, int) const;                                                                 \
-    template void Faces::drain_row(T*, int, int) const;                                                                \
-    template void Faces::fill(T*) const;                                                                               \
-    template void Faces::drain(T*) const;                                                                              \
-    template void Faces::restore(T*, bool) const;
-LBM_INSTANTIATE(double)
-LBM_INSTANTIATE(float)
-#undef LBM_INSTANTIATE
+template void Faces::fill_row(double*, int, int) const;
+template void Faces::drain_row(double*, int, int) const;
+template void Faces::fill(double*) const;
+template void Faces::drain(double*) const;
+template void Faces::restore(double*, bool) const;
+template void Faces::fill_row(float*, int, int) const;
+template void Faces::drain_row(float*, int, int) const;
+template void Faces::fill(float*) const;
+template void Faces::drain(float*) const;
+template void Faces::restore(float*, bool) const;
 
 }  // namespace lbm

@@ -20,7 +20,7 @@ std::int64_t Fluid::steps() const noexcept { return implementation_->steps; }
 double Fluid::max_mach() const noexcept { return std::sqrt(implementation_->max_speed2) / kSpeedOfSound; }
 StepTimes Fluid::times() const noexcept { return implementation_->times; }
 
-std::size_t Fluid::memory_bytes() const noexcept
+std::size_t Fluid::memory_bytes() const
 {
     return std::visit([](const auto& f) { return f.memory.bytes(); }, implementation_->populations) +
            implementation_->map.memory_bytes();
