@@ -199,7 +199,7 @@ class Step : public CppUnit::TestFixture {
                     Solid s = one_sphere()[0];
                     s.id = static_cast<std::int64_t>(all.size());
                     s.position = {12.0 * i + 0.1 * j, 12.0 * j + 0.2 * k, 12.0 * k + 0.15 * i};
-                    s.velocity[0] *= 0.5 * (i - 3.5);
+                    s.velocity[0] *= 0.2 * (i - 3.5);
                     s.mass = 150;
                     s.inertia = 400;
                     all.push_back(s);

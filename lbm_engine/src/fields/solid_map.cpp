@@ -80,7 +80,7 @@ void SolidMap::map(MappedSolid& solid, SphereFraction& fraction) const
             while (end > begin && row[end - 1] == 0) --end;
             // Parts of the sphere behind a wall of the box are left out.
             const int y = solid.y0 + j, z = solid.z0 + k;
-            const bool row_inside = (periodic_[1] || (y >= 0 && y < n_[1])) && (periodic_[2] || (z >= 0 && z < n_[2]));
+            const bool row_inside = is_inside(y, 1) && is_inside(z, 2);
             int in_begin = begin, in_end = row_inside ? end : begin;
             if (!periodic_[0]) {
                 in_begin = std::clamp(-first[0], in_begin, in_end);
@@ -98,28 +98,34 @@ void SolidMap::map(MappedSolid& solid, SphereFraction& fraction) const
     solid.sums.resize(solid.spans.size());
 }
 
-/// Sorts the spans by row; within a row they stand in the order of the solids.
+/// Sorts the spans by row; within a row they stand in the order of the solids. Slabs of planes are sorted side by side.
 void SolidMap::list_rows()
 {
-    std::fill(row_begin_.begin(), row_begin_.end(), 0);
+    constexpr int kSlabs = 16;
     const auto for_spans = [&](auto&& body) {
-        for (std::size_t s = 0; s < solids_.size(); ++s) {
-            const MappedSolid& solid = solids_[s];
-            for (int k = 0, span = 0; k < solid.nz; ++k)
-                for (int j = 0; j < solid.ny; ++j, ++span) {
-                    const int y = solid.y0 + j, z = solid.z0 + k;
-                    const bool inside =
-                        (periodic_[1] || (y >= 0 && y < n_[1])) && (periodic_[2] || (z >= 0 && z < n_[2]));
-                    if (inside) body(static_cast<std::size_t>(wrap(z, n_[2])) * n_[1] + wrap(y, n_[1]), s, span);
+#pragma omp parallel for schedule(dynamic)
+        for (int slab = 0; slab < kSlabs; ++slab) {
+            const int first = n_[2] * slab / kSlabs, last = n_[2] * (slab + 1) / kSlabs;
+            for (std::size_t s = 0; s < solids_.size(); ++s) {
+                const MappedSolid& solid = solids_[s];
+                for (int k = 0; k < solid.nz; ++k) {
+                    const int plane = wrap(solid.z0 + k, n_[2]);
+                    if (plane < first || plane >= last || !is_inside(solid.z0 + k, 2)) continue;
+                    for (int j = 0; j < solid.ny; ++j)
+                        if (is_inside(solid.y0 + j, 1))
+                            body(static_cast<std::size_t>(plane) * n_[1] + wrap(solid.y0 + j, n_[1]), s,
+                                 k * solid.ny + j);
                 }
+            }
         }
     };
+    std::fill(row_begin_.begin(), row_begin_.end(), 0);
     for_spans([&](std::size_t row, std::size_t, int) { ++row_begin_[row + 1]; });
     for (std::size_t r = 1; r < row_begin_.size(); ++r) row_begin_[r] += row_begin_[r - 1];
     entries_.resize(row_begin_.back());
-    std::vector<std::uint32_t> next(row_begin_.begin(), row_begin_.end() - 1);
+    row_next_.assign(row_begin_.begin(), row_begin_.end() - 1);
     for_spans([&](std::size_t row, std::size_t s, int span) {
-        entries_[next[row]++] = {static_cast<std::int32_t>(s), span};
+        entries_[row_next_[row]++] = {static_cast<std::int32_t>(s), span};
     });
 }
 

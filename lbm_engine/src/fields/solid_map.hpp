@@ -89,12 +89,15 @@ private:
 
     void map(MappedSolid& solid, SphereFraction& fraction) const;
     void list_rows();
+    /// Whether a row or plane, not wrapped, is part of the box.
+    bool is_inside(int i, int axis) const noexcept { return periodic_[axis] || (i >= 0 && i < n_[axis]); }
 
     std::array<int, 3> n_;
     std::array<bool, 3> periodic_;
     Weighting weighting_;
     std::vector<MappedSolid> solids_;
     std::vector<std::uint32_t> row_begin_;  // (ny * nz + 1)
+    std::vector<std::uint32_t> row_next_;   // while sorting
     std::vector<RowEntry> entries_;
 };
 
