@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -31,7 +32,7 @@ nlohmann::json parse(const std::string& path)
     try {
         if (path == "-") return nlohmann::json::parse(std::cin);
         std::ifstream file(path);
-        if (!file) throw lbm::ConfigError(path + ": cannot be read");
+        if (!file || std::filesystem::is_directory(path)) throw lbm::ConfigError(path + ": cannot be read");
         return nlohmann::json::parse(file);
     } catch (const nlohmann::json::parse_error& error) {
         throw lbm::ConfigError(path + ": not valid JSON: " + error.what());

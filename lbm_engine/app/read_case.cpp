@@ -115,7 +115,9 @@ void read_boundaries(Section boundaries, FluidConfig& fluid)
         const char axis[] = {"xyz"[d], 0};
         if (!boundaries.has(axis)) continue;
         if (boundaries.at(axis).is_string()) {
-            boundaries.choice(axis, "", {"periodic"});
+            if (boundaries.at(axis) != "periodic")
+                throw ConfigError(boundaries.name(axis) +
+                                  R"(: must be "periodic" or {"min": {"type": "noSlip"}, "max": {"type": "noSlip"}})");
             continue;
         }
         Section pair = boundaries.section(axis);

@@ -135,6 +135,7 @@ class Messages(unittest.TestCase):
         self.refused("solids[0].colour: unknown key", array(solids=[solid]))
         self.refused("a solid is free or moving", array(solids=[dict(array()["solids"][0], free=True, moving=True, density=1)]))
         self.refused("boundaries.x.max: missing", array(boundaries={"x": {"min": {"type": "noSlip"}}}))
+        self.refused('boundaries.x: must be "periodic" or {"min"', array(boundaries={"x": "noSlip"}))
         self.refused('boundaries.x.min.type = "wet"', array(boundaries={"x": {"min": {"type": "wet"}, "max": {}}}))
 
     def test_values_are_checked(self):
@@ -149,6 +150,8 @@ class Messages(unittest.TestCase):
         done = subprocess.run([PROGRAM, "run", "/nowhere.json"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
         self.assertIn("/nowhere.json: cannot be read", done.stderr)
+        done = subprocess.run([PROGRAM, "run", "/tmp"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2, done.stderr)
 
     def test_runs_that_fail_say_so(self):
         status, result, message = run(array(stop={"steady": 1e-12, "max_steps": 400}))
