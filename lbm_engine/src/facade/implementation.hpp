@@ -42,8 +42,13 @@ struct Fluid::Implementation {
     std::int64_t steps = 0, steps_before_dt = 0;  // the latter when dt became what it is
     double time_before_dt = 0;
 
-    std::vector<Solid> solids;                          // as last placed
-    std::vector<LoadLedger> ledgers;                    // in the same order
+    std::vector<Solid> solids;        // as last placed
+    std::vector<LoadLedger> ledgers;  // in the same order
+    struct Motion {
+        Vec3 velocity, angular_velocity;
+        double share, spin_share;  ///< of the load that was passed on (LoadLedger)
+    };
+    std::vector<Motion> last_motions;                   // of the solids in the last step; in the same order
     std::unordered_map<std::int64_t, int> index_of_id;  // into both
     std::vector<SolidLoad> loads;
     double max_speed2 = 0;
@@ -61,6 +66,7 @@ struct Fluid::Implementation {
     SolidLoad load_in_si(std::size_t s, const LoadLedger::Load& load, const SolidSums& sums) const;
     void watch(const SpeedWatch& speeds) const;
     LatticeSphere in_lattice_units(const Solid& solid) const;
+    Solid in_mid_step(const Solid& solid, const Motion& last) const;
 
     template <class Body>
     void for_cells(Body body) const

@@ -301,6 +301,14 @@ void SolidMap::clear(RowSaturation& cells) const
     }
 }
 
+void SolidMap::scale_velocities(double s) noexcept
+{
+    for (MappedSolid& solid : solids_) {
+        solid.sphere.velocity = s * solid.sphere.velocity;
+        solid.sphere.angular_velocity = s * solid.sphere.angular_velocity;
+    }
+}
+
 SolidSums SolidMap::sums(std::size_t solid) const
 {
     const MappedSolid& m = solids_[solid];

@@ -55,6 +55,9 @@ public:
      */
     void update(const std::vector<LatticeSphere>& spheres, const std::vector<int>& previous);
 
+    /// The time step becomes s times what it was: so do velocities in lattice units.
+    void scale_velocities(double s) noexcept;
+
     bool covers(std::size_t row) const noexcept { return !solids_.empty() && row_begin_[row] != row_begin_[row + 1]; }
 
     /// Asks memory for what `row` and the one after it will need: spans lie scattered, solid by solid.
