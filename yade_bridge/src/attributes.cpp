@@ -46,11 +46,11 @@ const std::vector<Attribute>& attributes()
             "boundaryVelocity", boundary_velocity, false,
             "Velocities of the six faces [m/s], default 0: a noSlip face with one is a wall that moves in "
             "its own plane."),
-        YADELBM_ATTRIBUTE(
-            "tau", tau, false,
-            "Relaxation time [fluid steps], sets the fluid's time step (tau - 1/2) dx^2 density / (3 "
-            "viscosity). NaN, the default: chosen so that this is a whole number of steps of O.dt, and chosen again "
-            "where O.dt changes by more than a quarter."),
+        YADELBM_ATTRIBUTE("tau", tau, false,
+                          "Relaxation time [fluid steps], sets the fluid's time step (tau - 1/2) dx^2 density / (3 "
+                          "viscosity). NaN, the default: chosen so that this is a whole number of steps of O.dt where "
+                          "the limits allow, and chosen again "
+                          "where O.dt changes by more than a quarter."),
         YADELBM_ATTRIBUTE("magicParameter", magic_parameter, false,
                           "Lambda of the two relaxation times [-], > 0. NaN, the default: the scheme's own, 1/8."),
         YADELBM_ATTRIBUTE("inertia", inertia, false,

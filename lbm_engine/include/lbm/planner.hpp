@@ -46,7 +46,8 @@ struct Plan {
  * Chooses (tau = NaN) or checks (tau given) the fluid's time step dt = (tau - 1/2) dx^2 / (3 nu).
  *
  * Chosen: the smallest whole number of grain steps for which tau >= kMinPlannedTau; where one grain step is already too long
- * (tau > kMaxPlannedTau, or the Mach number beyond its limit), a whole fraction of it.
+ * (tau > kMaxPlannedTau, or the Mach number beyond its limit), a whole fraction of it; where
+ * neither meets the limits, the longest step that does, whose ratio to the grain step is not whole.
  * @throws ConfigError  if a value is out of range, or no step meets the limits: the message names the limit and what would meet it
  */
 Plan plan_time_step(const PlanRequest& request);
