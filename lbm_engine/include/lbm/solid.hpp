@@ -16,7 +16,9 @@ using Mat3 = std::array<Vec3, 3>;
  * relaxation that keeps light particles stable. Infinite values say that the motion is prescribed (or none).
  */
 struct Solid {
-    std::int64_t id = 0;      ///< the caller's key; unique among the solids of one fluid
+    std::int64_t id = 0;  ///< the caller's key; unique among the solids of one fluid
+    std::int64_t body =
+        -1;  ///< solids with the same number >= 0 move as one rigid body: where they overlap, their common volume counts once
     double radius = 0;        ///< [m], at least two cells
     Vec3 position{};          ///< of the centre [m]; need not be wrapped in periodic directions
     Vec3 velocity{};          ///< of the centre [m/s]
