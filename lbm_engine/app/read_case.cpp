@@ -185,6 +185,7 @@ Case read_case(const Json& json)
     root.choice("collision", "trt", {"trt"});
     fluid.storage = root.choice("storage", "double", {"double", "single"}) == "single" ? Storage::single_precision
                                                                                        : Storage::double_precision;
+    fluid.lattice = root.choice("lattice", "D3Q19", {"D3Q19", "D3Q27"}) == "D3Q27" ? Lattice::d3q27 : Lattice::d3q19;
     fluid.inertia = root.flag("inertia", true);
     fluid.acceleration = root.vector("acceleration", {});
     fluid.gravity = root.vector("gravity", {});

@@ -15,6 +15,7 @@ namespace lbm::test {
  * The plain twin of the engine: two grids, one cell after the other, formulas as on the physics page. Lattice units. It is
  * checkable by hand and slow; the engine must agree with it.
  */
+template <class L>
 class ReferenceFluid {
 public:
     struct Load {
@@ -25,7 +26,7 @@ public:
     /// The configuration must be in lattice units: dx = 1, density = 1, viscosity = (tau - 1/2) / 3.
     explicit ReferenceFluid(const FluidConfig& c)
         : c_(c)
-        , f_(19, std::vector<double>(static_cast<std::size_t>(c.cells[0]) * c.cells[1] * c.cells[2], 0.0))
+        , f_(L::Q, std::vector<double>(static_cast<std::size_t>(c.cells[0]) * c.cells[1] * c.cells[2], 0.0))
         , next_(f_)
         , Lambda_(std::isnan(c.magic_parameter) ? 0.125 : c.magic_parameter)
     {
@@ -110,9 +111,9 @@ private:
 
         double rho = 1;
         Vec3 j{};
-        for (int i = 0; i < 19; ++i) {
+        for (int i = 0; i < L::Q; ++i) {
             rho += f_[i][here];
-            for (int d = 0; d < 3; ++d) j[d] += D3Q19::c[i][d] * f_[i][here];
+            for (int d = 0; d < 3; ++d) j[d] += L::c[i][d] * f_[i][here];
         }
         const double drho = rho - 1;
         if (!c_.inertia) rho = 1;
@@ -122,12 +123,12 @@ private:
         const Vec3 u_phys = u + (0.5 / rho) * F_s;
         const Vec3 F_t = mF + F_s;
 
-        double post[19];
+        double post[L::Q];
         Vec3 j_post{};
-        for (int i = 0; i < 19; ++i) {
-            const int o = D3Q19::opposite(i);
-            const Vec3 c{double(D3Q19::c[i][0]), double(D3Q19::c[i][1]), double(D3Q19::c[i][2])};
-            const double w = D3Q19::w(i), cu = dot(c, u_phys);
+        for (int i = 0; i < L::Q; ++i) {
+            const int o = L::opposite(i);
+            const Vec3 c{double(L::c[i][0]), double(L::c[i][1]), double(L::c[i][2])};
+            const double w = L::w(i), cu = dot(c, u_phys);
             const double even = 0.5 * (f_[i][here] + f_[o][here]), odd = 0.5 * (f_[i][here] - f_[o][here]);
             double even_eq = w * drho, even_source = 0;
             if (c_.inertia) {
@@ -150,13 +151,13 @@ private:
                 Vec3{r[1] * P[2] - r[2] * P[1], r[2] * P[0] - r[0] * P[2], r[0] * P[1] - r[1] * P[0]};
             load.coupling += part * m * kk * rho;
         }
-        for (int i = 0; i < 19; ++i) push(i, post[i], x, y, z);
+        for (int i = 0; i < L::Q; ++i) push(i, post[i], x, y, z);
     }
 
     /// Streams one population: across the box where it is periodic, back where a wall is.
     void push(int i, double value, int x, int y, int z)
     {
-        std::array<int, 3> to{x + D3Q19::c[i][0], y + D3Q19::c[i][1], z + D3Q19::c[i][2]};
+        std::array<int, 3> to{x + L::c[i][0], y + L::c[i][1], z + L::c[i][2]};
         int walls = 0;
         Vec3 wall_velocity{};
         for (int d = 0; d < 3; ++d) {
@@ -172,8 +173,8 @@ private:
         if (walls == 0) {
             next_[i][cell(to[0], to[1], to[2])] = value;
         } else {
-            const Vec3 c{double(D3Q19::c[i][0]), double(D3Q19::c[i][1]), double(D3Q19::c[i][2])};
-            next_[D3Q19::opposite(i)][cell(x, y, z)] = value - 6 * D3Q19::w(i) * dot(c, wall_velocity) / walls;
+            const Vec3 c{double(L::c[i][0]), double(L::c[i][1]), double(L::c[i][2])};
+            next_[L::opposite(i)][cell(x, y, z)] = value - 6 * L::w(i) * dot(c, wall_velocity) / walls;
         }
     }
 

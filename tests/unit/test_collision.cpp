@@ -1,5 +1,6 @@
 #include "close.hpp"
 #include "fields/pack.hpp"
+#include "lattice/d3q19.hpp"
 #include "lattice/vec3.hpp"
 #include "physics/collision.hpp"
 
@@ -49,9 +50,9 @@ class Collision : public CppUnit::TestFixture {
             const auto p = parameters(tau, 0.125);
             Populations f;
             lopsided(f);
-            const auto before = moments(f);
-            collide_fluid<true>(f, p);
-            const auto after = moments(f);
+            const auto before = moments<D3Q19>(f);
+            collide_fluid<D3Q19, true>(f, p);
+            const auto after = moments<D3Q19>(f);
             LBM_ASSERT_CLOSE(before.drho, after.drho, kRoundOff, 1.0);
             for (int d = 0; d < 3; ++d) LBM_ASSERT_CLOSE(before.j[d] + p.body_force[d], after.j[d], kRoundOff, 1.0);
         }
@@ -64,10 +65,10 @@ class Collision : public CppUnit::TestFixture {
                 const auto p = parameters(0.7, lambda);
                 Populations f;
                 lopsided(f);
-                const auto before = moments(f);
+                const auto before = moments<D3Q19>(f);
                 Exchange<double> out;
-                collide_saturated<true>(f, p, {epsilon, 3 * epsilon, {0.02, 0.0, -0.01}}, out);
-                const auto after = moments(f);
+                collide_saturated<D3Q19, true>(f, p, {epsilon, 3 * epsilon, {0.02, 0.0, -0.01}}, out);
+                const auto after = moments<D3Q19>(f);
                 LBM_ASSERT_CLOSE(before.drho, after.drho, kRoundOff, 1.0);
                 for (int d = 0; d < 3; ++d) {
                     LBM_ASSERT_CLOSE(before.j[d] + (1 - epsilon) * p.body_force[d] + out.force[d], after.j[d],
@@ -85,8 +86,8 @@ class Collision : public CppUnit::TestFixture {
             lopsided(f);
             lopsided(g);
             Exchange<double> out;
-            collide_saturated<true>(f, p, {0, 0, {0, 0, 0}}, out);
-            collide_fluid<true>(g, p);
+            collide_saturated<D3Q19, true>(f, p, {0, 0, {0, 0, 0}}, out);
+            collide_fluid<D3Q19, true>(g, p);
             for (int i = 0; i < D3Q19::Q; ++i) LBM_ASSERT_CLOSE(g[i], f[i], kRoundOff, 1.0);
             for (int d = 0; d < 3; ++d) CPPUNIT_ASSERT_EQUAL(0.0, out.force[d]);
         }
@@ -99,9 +100,9 @@ class Collision : public CppUnit::TestFixture {
             Populations f;
             lopsided(f);
             const double u_s[3] = {0.02, 0.0, -0.01}, k = 3, kLp = k * (tau - 0.5);
-            const auto before = moments(f);
+            const auto before = moments<D3Q19>(f);
             Exchange<double> out;
-            collide_saturated<true>(f, parameters(tau, 0.125), {1, k, {u_s[0], u_s[1], u_s[2]}}, out);
+            collide_saturated<D3Q19, true>(f, parameters(tau, 0.125), {1, k, {u_s[0], u_s[1], u_s[2]}}, out);
             const double rho = 1 + before.drho, left = 0.02 / (0.02 + 0.5 * kLp);
             for (int d = 0; d < 3; ++d) {
                 const double u = 0.5 * (before.j[d] + out.momentum[d]) / rho;
@@ -122,7 +123,7 @@ class Collision : public CppUnit::TestFixture {
             f[i] = 3 * D3Q19::w(i) * (c[0] * u[0] + c[1] * u[1] + c[2] * u[2]);
         }
         Exchange<double> out;
-        collide_saturated<false>(f, p, {0.4, 1.2, {u[0], u[1], u[2]}}, out);
+        collide_saturated<D3Q19, false>(f, p, {0.4, 1.2, {u[0], u[1], u[2]}}, out);
         for (int d = 0; d < 3; ++d) LBM_ASSERT_CLOSE(0.0, out.force[d], kRoundOff, 1.0);
     }
 
@@ -142,10 +143,10 @@ class Collision : public CppUnit::TestFixture {
             for (int d = 0; d < 3; ++d) s.u_s[d][l] = single_s[l].u_s[d];
         }
         Exchange<Pack<4>> out;
-        collide_saturated<true>(pack, p, s, out);
+        collide_saturated<D3Q19, true>(pack, p, s, out);
         for (int l = 0; l < 4; ++l) {
             Exchange<double> single_out;
-            collide_saturated<true>(single[l], p, single_s[l], single_out);
+            collide_saturated<D3Q19, true>(single[l], p, single_s[l], single_out);
             for (int i = 0; i < D3Q19::Q; ++i) CPPUNIT_ASSERT_EQUAL(single[l][i], double(pack[i][l]));
             CPPUNIT_ASSERT_EQUAL(single_out.force[0], double(out.force[0][l]));
         }

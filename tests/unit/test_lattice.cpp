@@ -1,5 +1,6 @@
 #include "close.hpp"
 #include "lattice/d3q19.hpp"
+#include "lattice/d3q27.hpp"
 #include "lattice/units.hpp"
 
 #include <cppunit/extensions/HelperMacros.h>
@@ -7,6 +8,7 @@
 namespace {
 
 using lbm::D3Q19;
+using lbm::D3Q27;
 
 constexpr double kRoundOff = 1e-15;
 
@@ -20,28 +22,41 @@ class Lattice : public CppUnit::TestFixture {
 
     void opposite_directions_are_opposite()
     {
-        for (int i = 0; i < D3Q19::Q; ++i) {
-            CPPUNIT_ASSERT_EQUAL(i, D3Q19::opposite(D3Q19::opposite(i)));
-            for (int d = 0; d < 3; ++d) CPPUNIT_ASSERT_EQUAL(-D3Q19::c[i][d], D3Q19::c[D3Q19::opposite(i)][d]);
+        opposite_directions<D3Q19>();
+        opposite_directions<D3Q27>();
+    }
+    void weights_are_isotropic_to_fourth_order()
+    {
+        weights<D3Q19>();
+        weights<D3Q27>();
+    }
+
+    template <class L>
+    void opposite_directions()
+    {
+        for (int i = 0; i < L::Q; ++i) {
+            CPPUNIT_ASSERT_EQUAL(i, L::opposite(L::opposite(i)));
+            for (int d = 0; d < 3; ++d) CPPUNIT_ASSERT_EQUAL(-L::c[i][d], L::c[L::opposite(i)][d]);
         }
     }
 
-    void weights_are_isotropic_to_fourth_order()
+    template <class L>
+    void weights()
     {
         const auto delta = [](int a, int b) { return a == b ? 1.0 : 0.0; };
         double zeroth = 0;
-        for (int i = 0; i < D3Q19::Q; ++i) zeroth += D3Q19::w(i);
+        for (int i = 0; i < L::Q; ++i) zeroth += L::w(i);
         LBM_ASSERT_CLOSE(1.0, zeroth, kRoundOff, 1.0);
         for (int a = 0; a < 3; ++a)
             for (int b = 0; b < 3; ++b) {
                 double second = 0;
-                for (int i = 0; i < D3Q19::Q; ++i) second += D3Q19::w(i) * D3Q19::c[i][a] * D3Q19::c[i][b];
+                for (int i = 0; i < L::Q; ++i) second += L::w(i) * L::c[i][a] * L::c[i][b];
                 LBM_ASSERT_CLOSE(delta(a, b) / 3, second, kRoundOff, 1.0);
                 for (int c = 0; c < 3; ++c)
                     for (int d = 0; d < 3; ++d) {
                         double fourth = 0;
-                        for (int i = 0; i < D3Q19::Q; ++i)
-                            fourth += D3Q19::w(i) * D3Q19::c[i][a] * D3Q19::c[i][b] * D3Q19::c[i][c] * D3Q19::c[i][d];
+                        for (int i = 0; i < L::Q; ++i)
+                            fourth += L::w(i) * L::c[i][a] * L::c[i][b] * L::c[i][c] * L::c[i][d];
                         const double isotropic =
                             delta(a, b) * delta(c, d) + delta(a, c) * delta(b, d) + delta(a, d) * delta(b, c);
                         LBM_ASSERT_CLOSE(isotropic / 9, fourth, kRoundOff, 1.0);

@@ -1,4 +1,5 @@
 #include "close.hpp"
+#include "lattice/d3q27.hpp"
 #include "lattice_units.hpp"
 #include "reference_fluid.hpp"
 
@@ -30,12 +31,13 @@ std::vector<Solid> moved(std::vector<Solid> solids, double t)
 }
 
 /// Velocity field of the twin after its last collision, from the momentum alone: the engine's outgoing momentum must agree.
-Vec3 momentum(ReferenceFluid& reference)
+template <class L>
+Vec3 momentum(ReferenceFluid<L>& reference)
 {
     Vec3 sum{};
-    for (int i = 0; i < 19; ++i)
+    for (int i = 0; i < L::Q; ++i)
         for (const double f : reference.population(i))
-            for (int d = 0; d < 3; ++d) sum[d] += D3Q19::c[i][d] * f;
+            for (int d = 0; d < 3; ++d) sum[d] += L::c[i][d] * f;
     return sum;
 }
 
@@ -51,12 +53,20 @@ class Step : public CppUnit::TestFixture {
     CPPUNIT_TEST(solids_that_moved_step_by_step_stand_as_if_placed_anew);
     CPPUNIT_TEST_SUITE_END();
 
-    void compare(const FluidConfig& c, const std::vector<Solid>& start, double tolerance = kRoundOff)
+    void compare(FluidConfig c, const std::vector<Solid>& start, double tolerance = kRoundOff)
+    {
+        compare_on<D3Q19>(c, start, tolerance);
+        c.lattice = lbm::Lattice::d3q27;
+        compare_on<D3Q27>(c, start, tolerance);
+    }
+
+    template <class L>
+    void compare_on(const FluidConfig& c, const std::vector<Solid>& start, double tolerance)
     {
         Fluid fluid(c);
-        ReferenceFluid reference(c);
+        ReferenceFluid<L> reference(c);
         fluid.place_solids(start);
-        std::vector<ReferenceFluid::Load> before(start.size());
+        std::vector<typename ReferenceFluid<L>::Load> before(start.size());
         for (int t = 0; t < kSteps; ++t) {
             const auto solids = moved(start, t);
             fluid.place_solids(solids);
@@ -85,9 +95,9 @@ class Step : public CppUnit::TestFixture {
                     const std::size_t at = reference.cell(x, y, z);
                     double drho = 0;
                     Vec3 j{};
-                    for (int i = 0; i < 19; ++i) {
+                    for (int i = 0; i < L::Q; ++i) {
                         drho += reference.population(i)[at];
-                        for (int d = 0; d < 3; ++d) j[d] += D3Q19::c[i][d] * reference.population(i)[at];
+                        for (int d = 0; d < 3; ++d) j[d] += L::c[i][d] * reference.population(i)[at];
                     }
                     LBM_ASSERT_CLOSE(drho / 3, pressure[at], tolerance, 1.0);
                     if (epsilon[at] > 0) continue;

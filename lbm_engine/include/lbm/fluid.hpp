@@ -21,7 +21,7 @@ struct StepTimes {
 };
 
 /**
- * A box of viscous fluid with rigid solids in it: D3Q19, two relaxation times, viscosity-exact partially saturated cells.
+ * A box of viscous fluid with rigid solids in it: D3Q19 or D3Q27, two relaxation times, viscosity-exact partially saturated cells.
  *
  * A coupled step reads: `place_solids` (where they are now), `step`, `loads` (what to apply until the next step).
  * All quantities are SI. The object is valid from construction on, prints nothing and owns the whole state of the fluid.

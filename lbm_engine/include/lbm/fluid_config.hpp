@@ -18,6 +18,9 @@ struct FaceCondition {
     Vec3 velocity{};  ///< of a no-slip wall, in its own plane [m/s]
 };
 
+/// The velocity set. D3Q27 is isotropic to higher order and costs about half as much again in time and memory.
+enum class Lattice { d3q19, d3q27 };
+
 /// How much storage a population takes. Populations are kept as deviations from rest.
 enum class Storage { double_precision, single_precision };
 
@@ -34,6 +37,7 @@ struct FluidConfig {
     Vec3 acceleration{};  ///< uniform drive: a mean pressure gradient of -density * acceleration [m/s2]
     std::array<FaceCondition, 6> faces{};
     bool inertia = true;  ///< false: Stokes flow, the quadratic terms dropped
+    Lattice lattice = Lattice::d3q19;
     Storage storage = Storage::double_precision;
     double max_mach = 0.2;  ///< a step that goes beyond it ends the run, > 0
     int threads = 0;        ///< of the fluid's loops; 0: as OpenMP decides

@@ -9,11 +9,12 @@ constexpr int kAlongX = 1;  // the subset of axes that is x alone
 
 }  // namespace
 
-Faces::Faces(const Layout& layout, const std::array<FaceCondition, 6>& conditions)
+template <class L>
+Faces::Faces(const Layout<L>& layout, const std::array<FaceCondition, 6>& conditions)
     : stride_{1, layout.row, layout.plane}
 {
-    for (int i = 1; i < D3Q19::Q; ++i) {
-        const auto& c = D3Q19::c[i];
+    for (int i = 1; i < L::Q; ++i) {
+        const auto& c = L::c[i];
         // f_i comes in across each non-empty subset of the axes along which it moves.
         for (int subset = 1; subset < 8; ++subset) {
             std::array<int, 3> ghost{}, wrapped{}, extent = layout.n;
@@ -38,33 +39,33 @@ Faces::Faces(const Layout& layout, const std::array<FaceCondition, 6>& condition
                 }
             }
             if (!moves) continue;
-            const int back = D3Q19::opposite(i);
-            const Layout::Index outside = layout.slot(back, ghost[0], ghost[1], ghost[2]);
-            const Layout::Index across = layout.slot(back, wrapped[0], wrapped[1], wrapped[2]);
-            const Layout::Index reflected = layout.slot(i, ghost[0] + c[0], ghost[1] + c[1], ghost[2] + c[2]);
+            const int back = L::opposite(i);
+            const Slot outside = layout.slot(back, ghost[0], ghost[1], ghost[2]);
+            const Slot across = layout.slot(back, wrapped[0], wrapped[1], wrapped[2]);
+            const Slot reflected = layout.slot(i, ghost[0] + c[0], ghost[1] + c[1], ghost[2] + c[2]);
             const double push = c[0] * wall_velocity[0] + c[1] * wall_velocity[1] + c[2] * wall_velocity[2];
             const Links links{outside,
                               walls ? reflected : across,
                               ghost,
                               extent,
-                              D3Q19::c[i],
+                              L::c[i],
                               walls > 0,
-                              walls ? 6 * D3Q19::w(i) * push / walls : 0.0};
+                              walls ? 6 * L::w(i) * push / walls : 0.0};
             (subset == kAlongX ? x_links_ : links_).push_back(links);
         }
     }
 }
 
 template <class T, class Move>
-void Faces::for_links(const std::vector<Links>& all, const std::array<Layout::Index, 3>& stride, T* f, Move move)
+void Faces::for_links(const std::vector<Links>& all, const std::array<Slot, 3>& stride, T* f, Move move)
 {
     for (const Links& links : all) {
         const int nx = links.extent[0], ny = links.extent[1], nz = links.extent[2];
-        const bool threads = static_cast<Layout::Index>(nx) * ny * nz > 4096;
+        const bool threads = static_cast<Slot>(nx) * ny * nz > 4096;
 #pragma omp parallel for collapse(2) schedule(static) if (threads)
         for (int z = 0; z < nz; ++z)
             for (int y = 0; y < ny; ++y) {
-                const Layout::Index at = z * stride[2] + y * stride[1];
+                const Slot at = z * stride[2] + y * stride[1];
                 T* const ghost = f + links.ghost + at;
                 T* const partner = f + links.partner + at;
                 for (int x = 0; x < nx; ++x) move(ghost[x], partner[x], static_cast<T>(links.gain));
@@ -80,7 +81,7 @@ void Faces::for_links_of_row(T* f, int y, int z, bool fill, Move move) const
         const bool own = fill && !links.wall;
         const int j = y - links.first[1] - (own ? 0 : links.c[1]), k = z - links.first[2] - (own ? 0 : links.c[2]);
         if (j < 0 || j >= links.extent[1] || k < 0 || k >= links.extent[2]) continue;
-        const Layout::Index at = k * stride_[2] + j * stride_[1];
+        const Slot at = k * stride_[2] + j * stride_[1];
         move(f[links.ghost + at], f[links.partner + at], static_cast<T>(links.gain));
     }
 }
@@ -125,6 +126,8 @@ void Faces::restore(T* f, bool odd) const
     }
 }
 
+template Faces::Faces(const Layout<D3Q19>&, const std::array<FaceCondition, 6>&);
+template Faces::Faces(const Layout<D3Q27>&, const std::array<FaceCondition, 6>&);
 template void Faces::fill_row(double*, int, int) const;
 template void Faces::drain_row(double*, int, int) const;
 template void Faces::fill(double*) const;

@@ -20,7 +20,8 @@ namespace lbm {
 class Faces {
 public:
     /// @param conditions  in lattice units; both faces of a periodic pair periodic
-    Faces(const Layout& layout, const std::array<FaceCondition, 6>& conditions);
+    template <class L>
+    Faces(const Layout<L>& layout, const std::array<FaceCondition, 6>& conditions);
 
     /// Faces along x, ghost <- partner, as soon as row (y, z) has made its step and while it is in cache. Rows in any order, by any thread.
     template <class T>
@@ -43,18 +44,18 @@ public:
 private:
     /// A block of links of one direction: slots ghost + d.stride and partner + d.stride, 0 <= d < extent.
     struct Links {
-        Layout::Index ghost, partner;
+        Slot ghost, partner;
         std::array<int, 3> first, extent;  ///< of the ghosts
         const int (&c)[3];                 ///< into the box
         bool wall;
         double gain;  ///< what a moving wall adds
     };
     template <class T, class Move>
-    static void for_links(const std::vector<Links>& all, const std::array<Layout::Index, 3>& stride, T* f, Move move);
+    static void for_links(const std::vector<Links>& all, const std::array<Slot, 3>& stride, T* f, Move move);
     template <class T, class Move>
     void for_links_of_row(T* f, int y, int z, bool fill, Move move) const;
 
-    std::array<Layout::Index, 3> stride_;
+    std::array<Slot, 3> stride_;
     std::vector<Links> x_links_, links_;
 };
 

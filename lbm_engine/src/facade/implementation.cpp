@@ -36,12 +36,18 @@ FluidConfig validated(const FluidConfig& config)
     return config;
 }
 
-std::variant<Populations<double>, Populations<float>> make_populations(const FluidConfig& c)
+template <class L>
+AnyPopulations make_populations_of(const FluidConfig& c)
+{
+    if (c.storage == Storage::single_precision) return Populations<L, float>(c.cells);
+    return Populations<L, double>(c.cells);
+}
+
+AnyPopulations make_populations(const FluidConfig& c)
 {
     const ThreadCount threads(c.threads);
     try {
-        if (c.storage == Storage::single_precision) return Populations<float>(c.cells);
-        return Populations<double>(c.cells);
+        return c.lattice == Lattice::d3q27 ? make_populations_of<D3Q27>(c) : make_populations_of<D3Q19>(c);
     } catch (const std::bad_alloc&) {
         throw ConfigError(message("cells = ", c.cells[0], " x ", c.cells[1], " x ", c.cells[2],
                                   ": more memory than there is; use a larger dx, or single storage"));
@@ -71,7 +77,7 @@ Fluid::Implementation::Implementation(const FluidConfig& c)
     , units(c.dx, dt, c.density)
     , collision{TrtRates(c.tau, magic_parameter(c)), {}, Weighting(magic_parameter(c)).low_noise}
     , populations(make_populations(c))
-    , faces(std::visit([](const auto& f) { return f.layout; }, populations), lattice_faces(c, units))
+    , faces(std::visit([&](const auto& f) { return Faces(f.layout, lattice_faces(c, units)); }, populations))
     , map(c.cells, periodic_axes(c), Weighting(magic_parameter(c)))
 {
     for (int d = 0; d < 3; ++d) collision.body_force[d] = c.acceleration[d] / units.acceleration;
@@ -285,13 +291,13 @@ void Fluid::Implementation::watch(const SpeedWatch& speeds) const
     std::ptrdiff_t where = -1;
     double worst = -1;
     std::visit(
-        [&](const auto& f) {
+        [&]<class L, class T>(const Populations<L, T>& f) {
             const auto [nx, ny, nz] = f.layout.n;
             for (std::ptrdiff_t cell = 0; cell < static_cast<std::ptrdiff_t>(nx) * ny * nz; ++cell) {
-                double p[D3Q19::Q];
+                double p[L::Q];
                 f.outgoing(static_cast<int>(cell % nx), static_cast<int>(cell / nx % ny),
                            static_cast<int>(cell / nx / ny), p);
-                const Moments<double> m = moments(p);
+                const Moments<double> m = moments<L>(p);
                 double speed2 = (m.j[0] * m.j[0] + m.j[1] * m.j[1] + m.j[2] * m.j[2]) / ((1 + m.drho) * (1 + m.drho));
                 if (!std::isfinite(speed2)) speed2 = std::numeric_limits<double>::max();
                 if (speed2 > worst) {

@@ -31,12 +31,15 @@ private:
     int before_;
 };
 
+using AnyPopulations = std::variant<Populations<D3Q19, double>, Populations<D3Q19, float>, Populations<D3Q27, double>,
+                                    Populations<D3Q27, float>>;
+
 struct Fluid::Implementation {
     FluidConfig config;
     double dt;
     Units units;
     CollisionParameters collision;
-    std::variant<Populations<double>, Populations<float>> populations;
+    AnyPopulations populations;
     Faces faces;
     SolidMap map;
     std::int64_t steps = 0, steps_before_dt = 0;  // the latter when dt became what it is

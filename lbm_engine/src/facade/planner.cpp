@@ -64,7 +64,7 @@ Step chosen_step(const PlanRequest& r, double nu)
 
 double lattice_bytes(const std::array<int, 3>& cells)
 {
-    return double(Layout(cells, sizeof(double)).slots) * sizeof(double);
+    return double(Layout<D3Q19>(cells, sizeof(double)).slots) * sizeof(double);
 }
 
 std::vector<std::string> warnings(const PlanRequest& r, const Plan& p)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lattice/d3q19.hpp"
+#include "lattice/d3q27.hpp"
 
 #include <array>
 #include <cstddef>
@@ -26,8 +27,11 @@ private:
     std::unique_ptr<void, Free> data_;
 };
 
+/// Of a slot in memory, or a distance between slots.
+using Slot = std::ptrdiff_t;
+
 /**
- * Where the populations live: one ghost cell around nx x ny x nz, for each row (y, z) the 19 lines along x one after the
+ * Where the populations of lattice L live: one ghost cell around nx x ny x nz, for each row (y, z) the Q lines along x one after the
  * other. One slot per population and cell: streaming is in place (AA pattern).
  *
  * Between steps a slot holds, by the parity of the number of steps done,
@@ -35,49 +39,48 @@ private:
  *     even:  slot(i, x)        = f_i(x), ready to collide
  *     odd:   slot(opp(i), x)   = f*_i(x), collided; f_i(x) is found in slot(opp(i), x - c_i)
  *
- * so that a step, of either parity, reads and writes the same 19 slots, and no other cell touches them.
+ * so that a step, of either parity, reads and writes the same Q slots, and no other cell touches them.
  * @see Bailey, Myre, Walsh, Lilja & Saar (2009), Int. Conf. Parallel Processing, 550
  */
+template <class L>
 struct Layout {
-    using Index = std::ptrdiff_t;
-
     std::array<int, 3> n;  ///< cells, without ghosts
-    Index line;            ///< between populations of a row
-    Index row;             ///< between rows along y
-    Index plane;           ///< between rows along z
-    Index origin;          ///< of slot (0, 0, 0, 0)
+    Slot line;             ///< between populations of a row
+    Slot row;              ///< between rows along y
+    Slot plane;            ///< between rows along z
+    Slot origin;           ///< of slot (0, 0, 0, 0)
     std::size_t slots;
 
     Layout(const std::array<int, 3>& cells, std::size_t slot_bytes) : n(cells)
     {
         // The right ghost of a line and the left one of the next share the padding.
-        const Index per_line = static_cast<Index>(kCacheLine / slot_bytes);
+        const Slot per_line = static_cast<Slot>(kCacheLine / slot_bytes);
         line = (n[0] + 2 + per_line - 1) / per_line * per_line;
-        row = line * D3Q19::Q;
+        row = line * L::Q;
         plane = row * (n[1] + 2);
         origin = per_line + row + plane;
         slots = static_cast<std::size_t>(plane * (n[2] + 2) + 2 * per_line);
     }
 
-    Index slot(int i, int x, int y, int z) const noexcept { return origin + z * plane + y * row + i * line + x; }
-    Index shift(int i) const noexcept { return D3Q19::c[i][2] * plane + D3Q19::c[i][1] * row + D3Q19::c[i][0]; }
+    Slot slot(int i, int x, int y, int z) const noexcept { return origin + z * plane + y * row + i * line + x; }
+    Slot shift(int i) const noexcept { return L::c[i][2] * plane + L::c[i][1] * row + L::c[i][0]; }
 
     /// Slot of the population f_i that is about to collide in cell (x, y, z).
-    Index incoming(int i, int x, int y, int z, bool odd) const noexcept
+    Slot incoming(int i, int x, int y, int z, bool odd) const noexcept
     {
-        return odd ? slot(D3Q19::opposite(i), x, y, z) - shift(i) : slot(i, x, y, z);
+        return odd ? slot(L::opposite(i), x, y, z) - shift(i) : slot(i, x, y, z);
     }
     /// Slot of the population f*_i that left cell (x, y, z) in the last collision.
-    Index outgoing(int i, int x, int y, int z, bool odd) const noexcept
+    Slot outgoing(int i, int x, int y, int z, bool odd) const noexcept
     {
-        return odd ? slot(D3Q19::opposite(i), x, y, z) : slot(i, x, y, z) + shift(i);
+        return odd ? slot(L::opposite(i), x, y, z) : slot(i, x, y, z) + shift(i);
     }
 };
 
 /// The populations of a box, and the parity that says where they stand.
-template <class T>
+template <class L, class T>
 struct Populations {
-    Layout layout;
+    Layout<L> layout;
     AlignedMemory memory;
     bool odd = false;
 
@@ -87,13 +90,13 @@ struct Populations {
     T* data() noexcept { return static_cast<T*>(memory.data()); }
     const T* data() const noexcept { return static_cast<const T*>(memory.data()); }
 
-    void incoming(int x, int y, int z, double (&f)[D3Q19::Q]) const noexcept
+    void incoming(int x, int y, int z, double (&f)[L::Q]) const noexcept
     {
-        for (int i = 0; i < D3Q19::Q; ++i) f[i] = data()[layout.incoming(i, x, y, z, odd)];
+        for (int i = 0; i < L::Q; ++i) f[i] = data()[layout.incoming(i, x, y, z, odd)];
     }
-    void outgoing(int x, int y, int z, double (&f)[D3Q19::Q]) const noexcept
+    void outgoing(int x, int y, int z, double (&f)[L::Q]) const noexcept
     {
-        for (int i = 0; i < D3Q19::Q; ++i) f[i] = data()[layout.outgoing(i, x, y, z, odd)];
+        for (int i = 0; i < L::Q; ++i) f[i] = data()[layout.outgoing(i, x, y, z, odd)];
     }
 };
 

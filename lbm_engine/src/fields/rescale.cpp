@@ -6,6 +6,7 @@ namespace lbm {
 namespace {
 
 /// Equilibria and sources of a cell, half of the sources taken off: what the populations relax to.
+template <class L>
 struct Target {
     double drho, rho;
     Vec3 momentum;  ///< rho u, for the odd part
@@ -15,24 +16,22 @@ struct Target {
 
     double even(int i) const
     {
-        const double w = D3Q19::w(i);
+        const double w = L::w(i);
         if (!inertia) return w * drho;
         const double cu = along(i, u);
         const double source = w * (9 * cu * along(i, total_force) - 3 * dot(u, total_force));
         return w * (drho + rho * (4.5 * cu * cu - 1.5 * dot(u, u))) - 0.5 * source;
     }
-    double odd(int i) const { return 3 * D3Q19::w(i) * (along(i, momentum) - 0.5 * along(i, body_force)); }
+    double odd(int i) const { return 3 * L::w(i) * (along(i, momentum) - 0.5 * along(i, body_force)); }
 
 private:
-    static double along(int i, const Vec3& v)
-    {
-        return D3Q19::c[i][0] * v[0] + D3Q19::c[i][1] * v[1] + D3Q19::c[i][2] * v[2];
-    }
+    static double along(int i, const Vec3& v) { return L::c[i][0] * v[0] + L::c[i][1] * v[1] + L::c[i][2] * v[2]; }
 };
 
-Target scaled(const Target& t, double s)
+template <class L>
+Target<L> scaled(const Target<L>& t, double s)
 {
-    Target r = t;
+    Target<L> r = t;
     r.drho = s * s * t.drho;
     r.rho = t.inertia ? 1 + r.drho : 1;
     r.u = s * t.u;
@@ -46,25 +45,27 @@ Target scaled(const Target& t, double s)
 
 }  // namespace
 
-template <class T>
-void rescale(Populations<T>& populations, const CollisionParameters& from, const CollisionParameters& to, bool inertia,
-             const SolidMap& solids)
+template <class L, class T>
+void rescale(Populations<L, T>& populations, const CollisionParameters& from, const CollisionParameters& to,
+             bool inertia, const SolidMap& solids)
 {
-    const Layout& layout = populations.layout;
+    const Layout<L>& layout = populations.layout;
     const double s = to.rates.Lp / from.rates.Lp;
     const double even_gain = s * from.rates.omega_plus / to.rates.omega_plus;
     for_cells(populations, from, inertia, solids, [&](const CellState& cell) {
-        Target before{cell.drho, inertia ? 1 + cell.drho : 1, {}, cell.u, {}, {}, inertia};
+        Target<L> before{cell.drho, inertia ? 1 + cell.drho : 1, {}, cell.u, {}, {}, inertia};
         for (int d = 0; d < 3; ++d) {
             before.body_force[d] = (1 - cell.epsilon) * from.body_force[d];
             before.total_force[d] = before.body_force[d] + cell.force[d];
         }
         before.momentum = before.rho * before.u - 0.5 * cell.force;
-        const Target after = scaled(before, s);
+        const Target<L> after = scaled(before, s);
         const double odd_gain = s * s * cell_omega_minus(from, cell.epsilon) / cell_omega_minus(to, cell.epsilon);
-        for (int i = 0; i < D3Q19::Q; ++i) {
-            const int o = D3Q19::opposite(i);
-            const double even = 0.5 * (cell.f[i] + cell.f[o]), odd = 0.5 * (cell.f[i] - cell.f[o]);
+        double f_in[L::Q];
+        populations.incoming(cell.x, cell.y, cell.z, f_in);
+        for (int i = 0; i < L::Q; ++i) {
+            const int o = L::opposite(i);
+            const double even = 0.5 * (f_in[i] + f_in[o]), odd = 0.5 * (f_in[i] - f_in[o]);
             const double f =
                 after.even(i) + even_gain * (even - before.even(i)) + after.odd(i) + odd_gain * (odd - before.odd(i));
             populations.data()[layout.incoming(i, cell.x, cell.y, cell.z, populations.odd)] = static_cast<T>(f);
@@ -72,9 +73,13 @@ void rescale(Populations<T>& populations, const CollisionParameters& from, const
     });
 }
 
-template void rescale(Populations<double>&, const CollisionParameters&, const CollisionParameters&, bool,
+template void rescale(Populations<D3Q19, double>&, const CollisionParameters&, const CollisionParameters&, bool,
                       const SolidMap&);
-template void rescale(Populations<float>&, const CollisionParameters&, const CollisionParameters&, bool,
+template void rescale(Populations<D3Q19, float>&, const CollisionParameters&, const CollisionParameters&, bool,
+                      const SolidMap&);
+template void rescale(Populations<D3Q27, double>&, const CollisionParameters&, const CollisionParameters&, bool,
+                      const SolidMap&);
+template void rescale(Populations<D3Q27, float>&, const CollisionParameters&, const CollisionParameters&, bool,
                       const SolidMap&);
 
 }  // namespace lbm

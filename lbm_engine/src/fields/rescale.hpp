@@ -15,8 +15,8 @@ namespace lbm {
  * @param from    parameters that the populations belong to; the solids' velocities belong to them too
  * @param to      of the same magic parameter, with the same body force in SI units
  */
-template <class T>
-void rescale(Populations<T>& populations, const CollisionParameters& from, const CollisionParameters& to, bool inertia,
-             const SolidMap& solids);
+template <class L, class T>
+void rescale(Populations<L, T>& populations, const CollisionParameters& from, const CollisionParameters& to,
+             bool inertia, const SolidMap& solids);
 
 }  // namespace lbm

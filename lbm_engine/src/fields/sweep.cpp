@@ -4,13 +4,13 @@
 
 namespace lbm {
 
-template <class T>
-SpeedWatch sweep(Populations<T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
+template <class L, class T>
+SpeedWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
                  const std::function<void(int, int)>& after_row)
 {
-    static const SweepRows<T> variants = sweep_rows<T>();
-    const SweepRow<T> sweep_row = inertia ? variants.inertia : variants.stokes;
-    const Layout& layout = populations.layout;
+    static const SweepRows<L, T> variants = sweep_rows<L, T>();
+    const SweepRow<L, T> sweep_row = inertia ? variants.inertia : variants.stokes;
+    const Layout<L>& layout = populations.layout;
     const int nx = layout.n[0], ny = layout.n[1], nz = layout.n[2];
     double max2 = 0, sum2 = 0;
 #pragma omp parallel reduction(max : max2) reduction(+ : sum2)
@@ -20,8 +20,8 @@ SpeedWatch sweep(Populations<T>& populations, const CollisionParameters& p, bool
 #pragma omp for schedule(static)
         for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(ny) * nz; ++row) {
             const int y = static_cast<int>(row % ny), z = static_cast<int>(row / ny);
-            Layout::Index slot[D3Q19::Q];
-            for (int i = 0; i < D3Q19::Q; ++i) slot[i] = layout.incoming(i, 0, y, z, populations.odd);
+            Slot slot[L::Q];
+            for (int i = 0; i < L::Q; ++i) slot[i] = layout.incoming(i, 0, y, z, populations.odd);
             if (solids.covers(row)) {
                 solids.saturate(row, cells);
                 solids.prefetch(row + 1);
@@ -39,8 +39,8 @@ SpeedWatch sweep(Populations<T>& populations, const CollisionParameters& p, bool
     return {max2, sum2};
 }
 
-template <class T>
-void sum_inside(const Populations<T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
+template <class L, class T>
+void sum_inside(const Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
                 Vec3 CellState::*momentum)
 {
     const int nx = populations.layout.n[0], ny = populations.layout.n[1], nz = populations.layout.n[2];
@@ -61,11 +61,14 @@ void sum_inside(const Populations<T>& populations, const CollisionParameters& p,
     }
 }
 
-template SpeedWatch sweep(Populations<double>&, const CollisionParameters&, bool, SolidMap&,
-                          const std::function<void(int, int)>&);
-template SpeedWatch sweep(Populations<float>&, const CollisionParameters&, bool, SolidMap&,
-                          const std::function<void(int, int)>&);
-template void sum_inside(const Populations<double>&, const CollisionParameters&, bool, SolidMap&, Vec3 CellState::*);
-template void sum_inside(const Populations<float>&, const CollisionParameters&, bool, SolidMap&, Vec3 CellState::*);
+#define LBM_SWEEP(L, T)                                                                                                \
+    template SpeedWatch sweep(Populations<L, T>&, const CollisionParameters&, bool, SolidMap&,                         \
+                              const std::function<void(int, int)>&);                                                   \
+    template void sum_inside(const Populations<L, T>&, const CollisionParameters&, bool, SolidMap&, Vec3 CellState::*);
+LBM_SWEEP(D3Q19, double)
+LBM_SWEEP(D3Q19, float)
+LBM_SWEEP(D3Q27, double)
+LBM_SWEEP(D3Q27, float)
+#undef LBM_SWEEP
 
 }  // namespace lbm

@@ -14,8 +14,8 @@ namespace lbm {
  * Collides and streams all cells once and leaves the solids' sums in the map. Flips the parity; the faces come next.
  * @param after_row  called as after_row(y, z) when a row has made its step; rows in any order, by any thread
  */
-template <class T>
-SpeedWatch sweep(Populations<T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
+template <class L, class T>
+SpeedWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
                  const std::function<void(int, int)>& after_row);
 
 /// The state of a cell between two steps, in lattice units.
@@ -27,7 +27,6 @@ struct CellState {
     Vec3 force;          ///< F_s that the next collision will apply
     Vec3 momentum;       ///< sum f c after the last collision
     Vec3 next_momentum;  ///< sum f c after the next one
-    double f[D3Q19::Q];  ///< about to collide
 };
 
 /**
@@ -35,24 +34,23 @@ struct CellState {
  * @param cells  the row, saturated if it has solids
  * @param body   called as body(CellState)
  */
-template <class T, class Body>
-void read_row(const Populations<T>& populations, const CollisionParameters& p, bool inertia, int y, int z,
+template <class L, class T, class Body>
+void read_row(const Populations<L, T>& populations, const CollisionParameters& p, bool inertia, int y, int z,
               const RowSaturation& cells, Body& body)
 {
     for (int x = 0; x < populations.layout.n[0]; ++x) {
-        CellState cell{x, y, z, 0, 0, {}, {}, {}, {}, {}};
-        double f[D3Q19::Q];
+        CellState cell{x, y, z, 0, 0, {}, {}, {}, {}};
+        double f[L::Q];
         populations.outgoing(x, y, z, f);
-        const Moments<double> after = moments(f);
-        populations.incoming(x, y, z, cell.f);
-        const Moments<double> before = moments(cell.f);
+        const Moments<double> after = moments<L>(f);
+        populations.incoming(x, y, z, f);
+        const Moments<double> before = moments<L>(f);
         const auto in = [&](int column) { return cells.column(column)[x]; };
         using C = RowSaturation;
         const Saturation<double> s{in(C::kEpsilon), in(C::kStrength), {in(C::kUs), in(C::kUs + 1), in(C::kUs + 2)}};
         Exchange<double> answer;
-        std::copy_n(cell.f, D3Q19::Q, f);
-        if (inertia) collide_saturated<true>(f, p, s, answer);
-        else collide_saturated<false>(f, p, s, answer);
+        if (inertia) collide_saturated<L, true>(f, p, s, answer);
+        else collide_saturated<L, false>(f, p, s, answer);
         const double rho = inertia ? 1 + before.drho : 1;
         cell.epsilon = s.epsilon;
         cell.drho = before.drho;
@@ -68,8 +66,8 @@ void read_row(const Populations<T>& populations, const CollisionParameters& p, b
 }
 
 /// Reads all cells: rows in parallel, the cells of a row in order.
-template <class T, class Body>
-void for_cells(const Populations<T>& populations, const CollisionParameters& p, bool inertia, const SolidMap& solids,
+template <class L, class T, class Body>
+void for_cells(const Populations<L, T>& populations, const CollisionParameters& p, bool inertia, const SolidMap& solids,
                Body body)
 {
     const int nx = populations.layout.n[0], ny = populations.layout.n[1], nz = populations.layout.n[2];
@@ -90,8 +88,8 @@ void for_cells(const Populations<T>& populations, const CollisionParameters& p, 
  * Fills the solids' sums of momentum inside them, and no others.
  * @param momentum  of a cell: member of CellState
  */
-template <class T>
-void sum_inside(const Populations<T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
+template <class L, class T>
+void sum_inside(const Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
                 Vec3 CellState::*momentum);
 
 }  // namespace lbm

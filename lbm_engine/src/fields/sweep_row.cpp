@@ -4,9 +4,9 @@ namespace lbm {
 
 #define LBM_DECLARE(isa)                                                                                               \
     namespace isa {                                                                                                    \
-    template <bool inertia, class T>                                                                                   \
-    void sweep_row(T*, const Layout::Index (&)[D3Q19::Q], int, Layout::Index, const CollisionParameters&,              \
-                   RowSaturation*, SpeedWatch&) noexcept;                                                              \
+    template <class L, bool inertia, class T>                                                                          \
+    void sweep_row(T*, const Slot (&)[L::Q], int, Slot, const CollisionParameters&, RowSaturation*,                    \
+                   SpeedWatch&) noexcept;                                                                              \
     }
 LBM_DECLARE(portable)
 #ifdef LBM_X86_KERNELS
@@ -15,18 +15,20 @@ LBM_DECLARE(avx512)
 #endif
 #undef LBM_DECLARE
 
-template <class T>
-SweepRows<T> sweep_rows()
+template <class L, class T>
+SweepRows<L, T> sweep_rows()
 {
 #ifdef LBM_X86_KERNELS
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-        return {avx512::sweep_row<true, T>, avx512::sweep_row<false, T>};
-    if (__builtin_cpu_supports("avx2")) return {avx2::sweep_row<true, T>, avx2::sweep_row<false, T>};
+        return {avx512::sweep_row<L, true, T>, avx512::sweep_row<L, false, T>};
+    if (__builtin_cpu_supports("avx2")) return {avx2::sweep_row<L, true, T>, avx2::sweep_row<L, false, T>};
 #endif
-    return {portable::sweep_row<true, T>, portable::sweep_row<false, T>};
+    return {portable::sweep_row<L, true, T>, portable::sweep_row<L, false, T>};
 }
 
-template SweepRows<double> sweep_rows();
-template SweepRows<float> sweep_rows();
+template SweepRows<D3Q19, double> sweep_rows();
+template SweepRows<D3Q19, float> sweep_rows();
+template SweepRows<D3Q27, double> sweep_rows();
+template SweepRows<D3Q27, float> sweep_rows();
 
 }  // namespace lbm

@@ -20,17 +20,17 @@ struct SpeedWatch {
  * @param ahead  slots from this row to the one that will be swept next, to be fetched meanwhile
  * @param cells  the row's saturation, or null where no solid is
  */
-template <class T>
-using SweepRow = void (*)(T* f, const Layout::Index (&slot)[D3Q19::Q], int nx, Layout::Index ahead,
-                          const CollisionParameters& p, RowSaturation* cells, SpeedWatch& watch) noexcept;
+template <class L, class T>
+using SweepRow = void (*)(T* f, const Slot (&slot)[L::Q], int nx, Slot ahead, const CollisionParameters& p,
+                          RowSaturation* cells, SpeedWatch& watch) noexcept;
 
-template <class T>
+template <class L, class T>
 struct SweepRows {
-    SweepRow<T> inertia, stokes;
+    SweepRow<L, T> inertia, stokes;
 };
 
 /// The widest variant that this processor runs. All variants give the same bits.
-template <class T>
-SweepRows<T> sweep_rows();
+template <class L, class T>
+SweepRows<L, T> sweep_rows();
 
 }  // namespace lbm

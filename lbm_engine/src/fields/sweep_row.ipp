@@ -18,41 +18,41 @@ struct WatchPack {
 };
 
 // Unrolled, so that the populations live in registers.
-template <class V, class T>
-[[gnu::always_inline]] inline void load_all(T* const (&p)[D3Q19::Q], int x, Layout::Index ahead, V (&f)[D3Q19::Q])
+template <class L, class V, class T>
+[[gnu::always_inline]] inline void load_all(T* const (&p)[L::Q], int x, Slot ahead, V (&f)[L::Q])
 {
-#pragma GCC unroll 19
-    for (int i = 0; i < D3Q19::Q; ++i) {
+#pragma GCC unroll 27
+    for (int i = 0; i < L::Q; ++i) {
         f[i] = load<sizeof(V) / sizeof(double)>(p[i] + x);
         // Memory works on the next row while this one is computed and its solids are served. 1: to be written, 2: into the second level.
         if constexpr (sizeof(V) / sizeof(double) > 1) __builtin_prefetch(p[i] + x + ahead, 1, 2);
     }
 }
 
-template <class V, class T>
-[[gnu::always_inline]] inline void store_all(T* const (&p)[D3Q19::Q], int x, const V (&f)[D3Q19::Q])
+template <class L, class V, class T>
+[[gnu::always_inline]] inline void store_all(T* const (&p)[L::Q], int x, const V (&f)[L::Q])
 {
-#pragma GCC unroll 19
-    for (int i = 0; i < D3Q19::Q; ++i) store<sizeof(V) / sizeof(double)>(p[D3Q19::opposite(i)] + x, f[i]);
+#pragma GCC unroll 27
+    for (int i = 0; i < L::Q; ++i) store<sizeof(V) / sizeof(double)>(p[L::opposite(i)] + x, f[i]);
 }
 
-template <bool inertia, int W, class T>
-[[gnu::always_inline]] inline void sweep_fluid(T* const (&p)[D3Q19::Q], int x, Layout::Index ahead,
+template <class L, bool inertia, int W, class T>
+[[gnu::always_inline]] inline void sweep_fluid(T* const (&p)[L::Q], int x, Slot ahead,
                                                const CollisionParameters& parameters, WatchPack<W>& watch)
 {
-    Pack<W> f[D3Q19::Q];
-    load_all(p, x, ahead, f);
-    watch.see(collide_fluid<inertia>(f, parameters));
-    store_all(p, x, f);
+    Pack<W> f[L::Q];
+    load_all<L>(p, x, ahead, f);
+    watch.see(collide_fluid<L, inertia>(f, parameters));
+    store_all<L>(p, x, f);
 }
 
-template <bool inertia, int W, class T>
-[[gnu::always_inline]] inline void sweep_saturated(T* const (&p)[D3Q19::Q], int x, Layout::Index ahead,
+template <class L, bool inertia, int W, class T>
+[[gnu::always_inline]] inline void sweep_saturated(T* const (&p)[L::Q], int x, Slot ahead,
                                                    const CollisionParameters& parameters, RowSaturation& cells,
                                                    WatchPack<W>& watch)
 {
-    Pack<W> f[D3Q19::Q];
-    load_all(p, x, ahead, f);
+    Pack<W> f[L::Q];
+    load_all<L>(p, x, ahead, f);
     const auto read = [&](int column) __attribute__((always_inline)) { return load<W>(cells.column(column) + x); };
     const auto write = [&](int column, const Pack<W>& v) __attribute__((always_inline))
     {
@@ -62,13 +62,13 @@ template <bool inertia, int W, class T>
     const Saturation<Pack<W>> saturation{
         read(C::kEpsilon), read(C::kStrength), {read(C::kUs), read(C::kUs + 1), read(C::kUs + 2)}};
     Exchange<Pack<W>> answer;
-    watch.see(collide_saturated<inertia>(f, parameters, saturation, answer));
+    watch.see(collide_saturated<L, inertia>(f, parameters, saturation, answer));
     for (int d = 0; d < 3; ++d) {
         write(C::kForce + d, answer.force[d]);
         write(C::kMomentum + d, answer.momentum[d]);
     }
     write(C::kWeight, answer.weight);
-    store_all(p, x, f);
+    store_all<L>(p, x, f);
 }
 
 template <class V>
@@ -83,44 +83,48 @@ void note(const V& pack, int lanes, SpeedWatch& watch)
 }
 
 /// Cells from x to end, W at a time as long as they last, then fewer at a time.
-template <bool inertia, int W, class T>
-[[gnu::always_inline]] inline void sweep_cells(T* const (&p)[D3Q19::Q], int x, int end, Layout::Index ahead,
+template <class L, bool inertia, int W, class T>
+[[gnu::always_inline]] inline void sweep_cells(T* const (&p)[L::Q], int x, int end, Slot ahead,
                                                const CollisionParameters& parameters, RowSaturation* cells,
                                                SpeedWatch& watch)
 {
     WatchPack<W> pack;
     if (!cells) {
-        for (; x + W <= end; x += W) sweep_fluid<inertia, W>(p, x, ahead, parameters, pack);
+        for (; x + W <= end; x += W) sweep_fluid<L, inertia, W>(p, x, ahead, parameters, pack);
     } else {
         for (; x + W <= end; x += W) {
-            if (cells->covered[x / kBlock]) sweep_saturated<inertia, W>(p, x, ahead, parameters, *cells, pack);
-            else sweep_fluid<inertia, W>(p, x, ahead, parameters, pack);
+            if (cells->covered[x / kBlock]) sweep_saturated<L, inertia, W>(p, x, ahead, parameters, *cells, pack);
+            else sweep_fluid<L, inertia, W>(p, x, ahead, parameters, pack);
         }
     }
     note(pack, W, watch);
     if constexpr (W > 1)
-        if (x < end) sweep_cells<inertia, W / 2>(p, x, end, ahead, parameters, cells, watch);
+        if (x < end) sweep_cells<L, inertia, W / 2>(p, x, end, ahead, parameters, cells, watch);
 }
 
 }  // namespace
 
-template <bool inertia, class T>
-void sweep_row(T* f, const Layout::Index (&slot)[D3Q19::Q], int nx, Layout::Index ahead,
-               const CollisionParameters& parameters, RowSaturation* cells, SpeedWatch& watch) noexcept
+template <class L, bool inertia, class T>
+void sweep_row(T* f, const Slot (&slot)[L::Q], int nx, Slot ahead, const CollisionParameters& parameters,
+               RowSaturation* cells, SpeedWatch& watch) noexcept
 {
-    T* p[D3Q19::Q];
-    for (int i = 0; i < D3Q19::Q; ++i) p[i] = f + slot[i];
+    T* p[L::Q];
+    for (int i = 0; i < L::Q; ++i) p[i] = f + slot[i];
     const CollisionParameters local = parameters;
-    sweep_cells<inertia, LBM_LANES>(p, 0, nx, ahead, local, cells, watch);
+    sweep_cells<L, inertia, LBM_LANES>(p, 0, nx, ahead, local, cells, watch);
 }
 
-template void sweep_row<true, double>(double*, const Layout::Index (&)[D3Q19::Q], int, Layout::Index,
-                                      const CollisionParameters&, RowSaturation*, SpeedWatch&) noexcept;
-template void sweep_row<false, double>(double*, const Layout::Index (&)[D3Q19::Q], int, Layout::Index,
-                                       const CollisionParameters&, RowSaturation*, SpeedWatch&) noexcept;
-template void sweep_row<true, float>(float*, const Layout::Index (&)[D3Q19::Q], int, Layout::Index,
-                                     const CollisionParameters&, RowSaturation*, SpeedWatch&) noexcept;
-template void sweep_row<false, float>(float*, const Layout::Index (&)[D3Q19::Q], int, Layout::Index,
-                                      const CollisionParameters&, RowSaturation*, SpeedWatch&) noexcept;
+#define LBM_SWEEP_ROW(L, inertia, T)                                                                                   \
+    template void sweep_row<L, inertia, T>(T*, const Slot(&)[L::Q], int, Slot, const CollisionParameters&,             \
+                                           RowSaturation*, SpeedWatch&) noexcept;
+LBM_SWEEP_ROW(D3Q19, true, double)
+LBM_SWEEP_ROW(D3Q19, false, double)
+LBM_SWEEP_ROW(D3Q19, true, float)
+LBM_SWEEP_ROW(D3Q19, false, float)
+LBM_SWEEP_ROW(D3Q27, true, double)
+LBM_SWEEP_ROW(D3Q27, false, double)
+LBM_SWEEP_ROW(D3Q27, true, float)
+LBM_SWEEP_ROW(D3Q27, false, float)
+#undef LBM_SWEEP_ROW
 
 }  // namespace lbm::LBM_ISA

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "lattice/d3q19.hpp"
 #include "physics/rates.hpp"
 
 #include <utility>
@@ -25,42 +24,43 @@ struct Moments {
 
 namespace detail {
 
-/// Calls body.template operator()<i, j>() for the nine pairs of opposite directions i and j.
-template <class Body>
+/// Calls body.template operator()<i, j>() for the pairs of opposite directions i and j.
+template <class L, class Body>
 [[gnu::always_inline]] inline void for_pairs(Body&& body)
 {
     [&]<int... p>(std::integer_sequence<int, p...>) __attribute__((always_inline))
     {
         (body.template operator()<2 * p + 1, 2 * p + 2>(), ...);
     }
-    (std::make_integer_sequence<int, D3Q19::kPairs>{});
+    (std::make_integer_sequence<int, L::kPairs>{});
 }
 
 /// c[i] . v, without a multiplication.
-template <int i, class V>
+template <class L, int i, class V>
 [[gnu::always_inline]] inline V c_dot(const V (&v)[3])
 {
-    constexpr const int(&c)[3] = D3Q19::c[i];
-    constexpr int a = c[0] != 0 ? 0 : c[1] != 0 ? 1 : 2;  // first and last axis along which i moves
-    constexpr int b = c[2] != 0 ? 2 : c[1] != 0 ? 1 : 0;
-    const V first = c[a] > 0 ? v[a] : -v[a];
-    if constexpr (a == b) return first;
-    else if constexpr (c[b] > 0) return first + v[b];
-    else return first - v[b];
+    constexpr const int(&c)[3] = L::c[i];
+    constexpr int a = c[0] != 0 ? 0 : c[1] != 0 ? 1 : 2;  // the first axis along which i moves
+    V sum = c[a] > 0 ? v[a] : -v[a];
+    if constexpr (a < 1 && c[1] > 0) sum += v[1];
+    if constexpr (a < 1 && c[1] < 0) sum -= v[1];
+    if constexpr (a < 2 && c[2] > 0) sum += v[2];
+    if constexpr (a < 2 && c[2] < 0) sum -= v[2];
+    return sum;
 }
 
 }  // namespace detail
 
-template <class V>
-[[gnu::always_inline]] inline Moments<V> moments(const V (&f)[D3Q19::Q])
+template <class L, class V>
+[[gnu::always_inline]] inline Moments<V> moments(const V (&f)[L::Q])
 {
     Moments<V> m{f[0], {V{}, V{}, V{}}};
-    detail::for_pairs([&]<int a, int b>() __attribute__((always_inline)) {
+    detail::for_pairs<L>([&]<int a, int b>() __attribute__((always_inline)) {
         m.drho += f[a] + f[b];
         const V difference = f[a] - f[b];
         for (int d = 0; d < 3; ++d) {
-            if (D3Q19::c[a][d] > 0) m.j[d] += difference;
-            if (D3Q19::c[a][d] < 0) m.j[d] -= difference;
+            if (L::c[a][d] > 0) m.j[d] += difference;
+            if (L::c[a][d] < 0) m.j[d] -= difference;
         }
     });
     return m;
@@ -72,18 +72,18 @@ template <class V>
  *     f+ <- (1 - omega+) f+  + w (even_0 + (c.u) (c.even_2))
  *     f- <- (1 - omega-) f-  + w c.odd
  */
-template <bool inertia, class V, class Rate>
-[[gnu::always_inline]] inline void relax(V (&f)[D3Q19::Q], double omega_plus, const Rate& omega_minus, const V& even_0,
+template <class L, bool inertia, class V, class Rate>
+[[gnu::always_inline]] inline void relax(V (&f)[L::Q], double omega_plus, const Rate& omega_minus, const V& even_0,
                                          const V (&u)[3], const V (&even_2)[3], const V (&odd)[3])
 {
     const double keep_even = 1 - omega_plus;
     const Rate keep_odd = 1 - omega_minus;
-    f[0] = keep_even * f[0] + D3Q19::w(0) * even_0;
-    detail::for_pairs([&]<int a, int b>() __attribute__((always_inline)) {
+    f[0] = keep_even * f[0] + L::w(0) * even_0;
+    detail::for_pairs<L>([&]<int a, int b>() __attribute__((always_inline)) {
         V even = even_0;
-        if constexpr (inertia) even += detail::c_dot<a>(u) * detail::c_dot<a>(even_2);
-        const V new_even = (0.5 * keep_even) * (f[a] + f[b]) + D3Q19::w(a) * even;
-        const V new_odd = (0.5 * keep_odd) * (f[a] - f[b]) + D3Q19::w(a) * detail::c_dot<a>(odd);
+        if constexpr (inertia) even += detail::c_dot<L, a>(u) * detail::c_dot<L, a>(even_2);
+        const V new_even = (0.5 * keep_even) * (f[a] + f[b]) + L::w(a) * even;
+        const V new_odd = (0.5 * keep_odd) * (f[a] - f[b]) + L::w(a) * detail::c_dot<L, a>(odd);
         f[a] = new_even + new_odd;
         f[b] = new_even - new_odd;
     });
@@ -113,11 +113,11 @@ template <bool inertia, class V>
  * One TRT collision of fluid.
  * @return u^2, the square of the velocity
  */
-template <bool inertia, class V>
-[[gnu::always_inline]] inline V collide_fluid(V (&f)[D3Q19::Q], const CollisionParameters& p)
+template <class L, bool inertia, class V>
+[[gnu::always_inline]] inline V collide_fluid(V (&f)[L::Q], const CollisionParameters& p)
 {
     const double omega_plus = p.rates.omega_plus, omega_minus = p.rates.omega_minus;
-    const Moments<V> m = moments(f);
+    const Moments<V> m = moments<L>(f);
     V u[3], odd[3], even_2[3], force[3];
     V inverse_rho{};
     if constexpr (inertia) inverse_rho = 1 / (1 + m.drho);
@@ -129,7 +129,7 @@ template <bool inertia, class V>
         odd[d] = (3 * omega_minus) * momentum + 3 * (1 - 0.5 * omega_minus) * F;
     }
     const V even_0 = even_sources<inertia>(omega_plus, m.drho, u, force, even_2);
-    relax<inertia>(f, omega_plus, omega_minus, even_0, u, even_2, odd);
+    relax<L, inertia>(f, omega_plus, omega_minus, even_0, u, even_2, odd);
     return u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
 }
 
@@ -168,16 +168,16 @@ template <class V>
  *
  * @return u_phys^2
  */
-template <bool inertia, class V>
-[[gnu::always_inline]] inline V collide_saturated(V (&f)[D3Q19::Q], const CollisionParameters& p,
-                                                  const Saturation<V>& s, Exchange<V>& out)
+template <class L, bool inertia, class V>
+[[gnu::always_inline]] inline V collide_saturated(V (&f)[L::Q], const CollisionParameters& p, const Saturation<V>& s,
+                                                  Exchange<V>& out)
 {
     const V m = 1 - s.epsilon;
     const V kLp = p.rates.Lp * s.strength;
     const V least = V{} + kLeastFluidFraction;
     const V kk = kLp / ((m > least ? m : least) + 0.5 * kLp);
     const V omega_minus = cell_omega_minus(p, s.epsilon);
-    const Moments<V> mo = moments(f);
+    const Moments<V> mo = moments<L>(f);
     V u[3], odd[3], even_2[3], total_force[3];
     V rho = V{} + 1.0, inverse_rho = V{} + 1.0;
     if constexpr (inertia) {
@@ -196,7 +196,7 @@ template <bool inertia, class V>
         out.momentum[d] = mo.j[d] + total_force[d];
     }
     const V even_0 = even_sources<inertia>(p.rates.omega_plus, mo.drho, u, total_force, even_2);
-    relax<inertia>(f, p.rates.omega_plus, omega_minus, even_0, u, even_2, odd);
+    relax<L, inertia>(f, p.rates.omega_plus, omega_minus, even_0, u, even_2, odd);
     return u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
 }
 
