@@ -103,9 +103,19 @@ private:
 
 void read_face(Section face, FaceCondition& condition)
 {
-    face.choice("type", "noSlip", {"noSlip"});
-    condition.type = FaceType::no_slip;
-    condition.velocity = face.vector("velocity", {});
+    const std::string type = face.choice("type", "noSlip", {"noSlip", "freeSlip", "velocity", "pressure"});
+    if (type == "noSlip") {
+        condition.type = FaceType::no_slip;
+        condition.velocity = face.vector("velocity", {});
+    } else if (type == "freeSlip") {
+        condition.type = FaceType::free_slip;
+    } else if (type == "velocity") {
+        condition.type = FaceType::velocity;
+        condition.velocity = face.vector("velocity");
+    } else {
+        condition.type = FaceType::pressure;
+        condition.pressure = face.number("pressure");
+    }
     face.close();
 }
 

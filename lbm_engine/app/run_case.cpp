@@ -141,6 +141,9 @@ CaseResult run_case(const Case& input, const std::function<void(const Progress&)
                                   {"velocity", solid.velocity},
                                   {"angular_velocity", solid.angular_velocity}});
     }
+    json["boundaries"] = nlohmann::json::array();
+    for (const Face face : {kXMin, kXMax, kYMin, kYMax, kZMin, kZMax})
+        json["boundaries"].push_back({{"flux", fluid.boundary_flux(face)}, {"force", fluid.boundary_force(face)}});
     const double k = fluid.permeability();
     json["permeability"] = std::isfinite(k) ? nlohmann::json(k) : nlohmann::json(nullptr);
     json["mass_drift"] = fluid.total_mass() / mass - 1;

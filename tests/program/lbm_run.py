@@ -100,6 +100,34 @@ class Results(unittest.TestCase):
         self.assertAlmostEqual(result["solids"][0]["position"][0], 5 * DX + 1e-6 * result["time"], delta=1e-15)
         self.assertLess(result["solids"][0]["force"][0], 0)
 
+    def test_what_comes_in_goes_out_and_pressure_bears_the_walls(self):
+        wall, slip = {"type": "noSlip"}, {"type": "freeSlip"}
+        inlet, outlet = {"type": "velocity", "velocity": [1e-4, 0, 0]}, {"type": "pressure", "pressure": 2e-3}
+        faces = {"x": {"min": inlet, "max": outlet}, "z": {"min": wall, "max": slip}}
+        case = array(acceleration=[0, 0, 0], boundaries=faces, inertia=False, stop={"steady": 1e-9, "max_steps": 20000})
+        status, result, message = run(case)
+        self.assertEqual(status, 0, message)
+        flux = [face["flux"] for face in result["boundaries"]]
+        area = (8 * DX) ** 2
+        self.assertAlmostEqual(flux[0] / area, -1e-4, delta=1e-15)
+        self.assertAlmostEqual(flux[1] / area, 1e-4, delta=1e-12)
+        force = [face["force"] for face in result["boundaries"]]
+        load = result["solids"][0]["force"]
+        for axis in range(3):
+            total = load[axis] + sum(force[face][axis] for face in (0, 1, 4, 5))
+            self.assertAlmostEqual(total / load[0], 0, delta=1e-7)
+        self.assertEqual(force[2], [0, 0, 0])
+        self.assertAlmostEqual(force[5][0] / force[4][0], 0, delta=1e-9)
+        self.assertIsNone(result["permeability"])
+
+    def test_pressure_faces_drive_a_flow_as_a_uniform_drive_does(self):
+        drop = DENSITY * DRIVE * 8 * DX
+        ends = {"min": {"type": "pressure", "pressure": drop}, "max": {"type": "pressure", "pressure": 0}}
+        stop = {"steady": 1e-9, "max_steps": 20000}
+        _, driven, _ = run(array(inertia=False, stop=stop))
+        _, pressed, _ = run(array(acceleration=[0, 0, 0], boundaries={"x": ends}, inertia=False, stop=stop))
+        self.assertAlmostEqual(pressed["permeability"] / driven["permeability"], 1, delta=0.02)
+
     def test_the_flow_is_written_for_paraview(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "flow.vti")
@@ -136,6 +164,9 @@ class Messages(unittest.TestCase):
         self.refused("a solid is free or moving", array(solids=[dict(array()["solids"][0], free=True, moving=True, density=1)]))
         self.refused("boundaries.x.max: missing", array(boundaries={"x": {"min": {"type": "noSlip"}}}))
         self.refused('boundaries.x: must be "periodic" or {"min"', array(boundaries={"x": "noSlip"}))
+        self.refused("boundaries.x.min.pressure: missing", array(boundaries={"x": {"min": {"type": "pressure"}, "max": {}}}))
+        self.refused("boundaries.x.min.velocity: missing", array(boundaries={"x": {"min": {"type": "velocity"}, "max": {}}}))
+        self.refused("boundaries.x.min.velocity: unknown key", array(boundaries={"x": {"min": {"type": "freeSlip", "velocity": [0, 0, 0]}, "max": {}}}))
         self.refused('boundaries.x.min.type = "wet"', array(boundaries={"x": {"min": {"type": "wet"}, "max": {}}}))
 
     def test_values_are_checked(self):

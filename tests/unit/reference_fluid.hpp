@@ -28,8 +28,18 @@ public:
         : c_(c)
         , f_(L::Q, std::vector<double>(static_cast<std::size_t>(c.cells[0]) * c.cells[1] * c.cells[2], 0.0))
         , next_(f_)
+        , post_(f_)
         , Lambda_(std::isnan(c.magic_parameter) ? 0.125 : c.magic_parameter)
     {
+        double pressure = 0;
+        int faces = 0;
+        for (const FaceCondition& face : c.faces)
+            if (face.type == FaceType::pressure) {
+                pressure += face.pressure;
+                ++faces;
+            }
+        for (int i = 0; faces > 0 && i < L::Q; ++i)
+            for (double& f : f_[i]) f = L::w(i) * 3 * pressure / faces;
     }
 
     std::vector<double>& population(int i) { return f_[i]; }
@@ -40,9 +50,11 @@ public:
         const auto [nx, ny, nz] = c_.cells;
         map(solids);
         loads_.assign(solids.size(), {});
+        through_.clear();
         for (int z = 0; z < nz; ++z)
             for (int y = 0; y < ny; ++y)
                 for (int x = 0; x < nx; ++x) collide_and_push(x, y, z, solids);
+        if (c_.inertia) add_dynamic_pressure();
         f_.swap(next_);
     }
 
@@ -151,35 +163,92 @@ private:
                 Vec3{r[1] * P[2] - r[2] * P[1], r[2] * P[0] - r[0] * P[2], r[0] * P[1] - r[1] * P[0]};
             load.coupling += part * m * kk * rho;
         }
-        for (int i = 0; i < L::Q; ++i) push(i, post[i], x, y, z);
+        for (int i = 0; i < L::Q; ++i) {
+            post_[i][here] = post[i];
+            push(i, post[i], x, y, z);
+        }
     }
 
-    /// Streams one population: across the box where it is periodic, back where a wall is.
+    /// Streams one population: across the box where it is periodic, turned round at faces.
     void push(int i, double value, int x, int y, int z)
     {
         std::array<int, 3> to{x + L::c[i][0], y + L::c[i][1], z + L::c[i][2]};
-        int walls = 0;
-        Vec3 wall_velocity{};
+        std::array<int, 3> turned{L::c[i][0], L::c[i][1], L::c[i][2]};
+        std::array<FaceType, 3> type{};  // periodic where no face is crossed
+        int walls = 0, pressures = 0, pressure_face = -1;
+        Vec3 wall_velocity{}, own_velocity{};
+        double pressure = 0;
         for (int d = 0; d < 3; ++d) {
             if (to[d] >= 0 && to[d] < c_.cells[d]) continue;
-            const FaceCondition& face = c_.faces[2 * d + (to[d] < 0 ? 0 : 1)];
+            const int index = 2 * d + (to[d] < 0 ? 0 : 1);
+            const FaceCondition& face = c_.faces[index];
+            type[d] = face.type;
+            own_velocity[d] = face.velocity[d];
             if (face.type == FaceType::periodic) {
                 to[d] = (to[d] + c_.cells[d]) % c_.cells[d];
-            } else {
+                continue;
+            }
+            to[d] -= L::c[i][d];
+            turned[d] = -turned[d];
+            if (face.type == FaceType::no_slip || face.type == FaceType::velocity) {
                 ++walls;
                 wall_velocity += face.velocity;
             }
+            if (face.type == FaceType::pressure) {
+                ++pressures;
+                pressure += face.pressure;
+                pressure_face = index;
+            }
         }
-        if (walls == 0) {
-            next_[i][cell(to[0], to[1], to[2])] = value;
-        } else {
-            const Vec3 c{double(L::c[i][0]), double(L::c[i][1]), double(L::c[i][2])};
-            next_[L::opposite(i)][cell(x, y, z)] = value - 6 * L::w(i) * dot(c, wall_velocity) / walls;
+        const std::size_t here = cell(x, y, z);
+        if (walls > 0) {
+            double c_u = 0;
+            for (int d = 0; d < 3; ++d) {
+                if (type[d] == FaceType::no_slip || type[d] == FaceType::velocity) c_u += L::c[i][d] * own_velocity[d];
+                else if (type[d] == FaceType::pressure || (type[d] == FaceType::periodic && pressures == 0))
+                    c_u += L::c[i][d] * wall_velocity[d] / walls;
+            }
+            next_[L::opposite(i)][here] = value - 6 * L::w(i) * c_u;
+            return;
         }
+        int k = 0;
+        while (turned != std::array<int, 3>{L::c[k][0], L::c[k][1], L::c[k][2]}) ++k;
+        const std::size_t there = cell(to[0], to[1], to[2]);
+        if (pressures % 2 == 0) next_[k][there] = value;
+        else next_[k][there] = -value + 6 * L::w(i) * pressure / pressures;
+        if (pressures == 1) through_.push_back({k, there, here, pressure_face});
     }
 
+    /// What pressure faces let in knows the dynamic pressure 1/2 rho u_n^2 behind the face.
+    void add_dynamic_pressure()
+    {
+        std::array<std::vector<double>, 6> dynamic;
+        for (int face = 0; face < 6; ++face) {
+            if (c_.faces[face].type != FaceType::pressure) continue;
+            dynamic[face].resize(f_[0].size());
+            const double rho = 1 + 3 * c_.faces[face].pressure;
+            for (std::size_t at = 0; at < f_[0].size(); ++at) {
+                double flux = 0;
+                for (int i = 0; i < L::Q; ++i)
+                    if (L::c[i][face / 2] == (face % 2 ? -1 : 1)) flux += post_[L::opposite(i)][at] - next_[i][at];
+                // leaving: flux = j + j^2 / rho; entering, from rest at the pressure of the face: flux = j + 1/2 j^2 / rho
+                const double a = (flux > 0 ? 1 : 0.5) / rho;
+                const double j = (std::sqrt(std::max(0.0, 1 + 4 * a * flux)) - 1) / (2 * a);
+                dynamic[face][at] = 3 * a * j * j;
+            }
+        }
+        for (const Through& t : through_)
+            next_[t.i][t.to] += L::w(t.i) * (dynamic[t.face][t.to] + dynamic[t.face][t.from]);
+    }
+
+    struct Through {
+        int i;
+        std::size_t to, from;
+        int face;
+    };
     FluidConfig c_;
-    std::vector<std::vector<double>> f_, next_;
+    std::vector<std::vector<double>> f_, next_, post_;
+    std::vector<Through> through_;
     double Lambda_;
     std::vector<std::vector<Share>> shares_;
     std::vector<Load> loads_;

@@ -46,6 +46,7 @@ class Step : public CppUnit::TestFixture {
     CPPUNIT_TEST(agrees_with_the_plain_twin_in_a_periodic_box);
     CPPUNIT_TEST(agrees_between_walls_at_odd_sizes);
     CPPUNIT_TEST(agrees_in_one_cell_thick_boxes);
+    CPPUNIT_TEST(agrees_wherever_two_kinds_of_face_meet);
     CPPUNIT_TEST(agrees_with_solids_across_periodic_faces_and_sharing_cells);
     CPPUNIT_TEST(agrees_in_stokes_flow_with_any_magic_parameter);
     CPPUNIT_TEST(single_storage_agrees_to_its_own_round_off);
@@ -158,6 +159,54 @@ class Step : public CppUnit::TestFixture {
             compare(c, {});
             for (int axis = 0; axis < 3; ++axis) lbm::test::walls(c, axis);
             compare(c, {});
+        }
+    }
+
+    /// Every kind of face, each next to every other.
+    static std::vector<FluidConfig> boxes_of_all_faces(const std::array<int, 3>& cells)
+    {
+        std::vector<FluidConfig> all;
+        for (int kinds = 0; kinds < 5 * 5 * 5; ++kinds) {
+            FluidConfig c = driven(cells, 0.7);
+            c.max_mach = 1;
+            for (int d = 0, rest = kinds; d < 3; ++d, rest /= 5) {
+                FaceCondition &low = c.faces[2 * d], &high = c.faces[2 * d + 1];
+                FaceCondition none, wall{FaceType::no_slip, {0.03, 0.01, 0.02}, 0}, slip{FaceType::free_slip, {}, 0},
+                    inlet{FaceType::velocity, {0.02, -0.01, 0.015}, 0}, outlet{FaceType::pressure, {}, 0.001 * (d + 1)};
+                wall.velocity[d] = 0;
+                const FaceCondition pairs[5][2] = {
+                    {none, none}, {wall, slip}, {inlet, outlet}, {outlet, wall}, {slip, inlet}};
+                low = pairs[rest % 5][0];
+                high = pairs[rest % 5][1];
+            }
+            all.push_back(c);
+        }
+        return all;
+    }
+
+    void agrees_wherever_two_kinds_of_face_meet()
+    {
+        for (FluidConfig c : boxes_of_all_faces({4, 5, 3})) {
+            if (is_refused(c)) continue;  // fluid only comes in
+            compare(c, {});
+            c.cells = {1, 4, 2};
+            c.inertia = false;
+            compare(c, {});
+        }
+        for (FluidConfig c : boxes_of_all_faces({9, 8, 9}))
+            if (!is_refused(c) && c.faces[kXMax].type == FaceType::pressure) {
+                c.acceleration = {};
+                compare(c, one_sphere());
+            }
+    }
+
+    static bool is_refused(const FluidConfig& c)
+    {
+        try {
+            Fluid fluid(c);
+            return false;
+        } catch (const ConfigError&) {
+            return true;
         }
     }
 

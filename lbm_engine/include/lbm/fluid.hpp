@@ -61,6 +61,13 @@ public:
      */
     void change_tau(double tau);
 
+    /**
+     * Gives the faces other velocities and pressures: an oscillating wall, a pressure that rises. What holds for the middle of the next step is exact to
+     * second order in time.
+     * @throws ConfigError  for a value outside its range, or a face of another type than before; nothing has changed then
+     */
+    void change_faces(const std::array<FaceCondition, 6>& faces);
+
     /// Loads of the last step, in the order of the last `place_solids`; zero before the first step.
     const std::vector<SolidLoad>& loads() const noexcept;
 
@@ -72,11 +79,23 @@ public:
     std::size_t memory_bytes() const;  ///< populations and solids' maps
 
     Vec3 average_velocity() const;  ///< superficial: over all cells, solid ones included [m/s]
-    double permeability() const;    ///< nu U.a / |a|^2 for the drive a [m2]; NaN without one
-    double total_mass() const;      ///< of the lattice's fluid [kg]
+    /// mu U.G / |G|^2 for the drive G = density * acceleration + the drop between pressure faces that face each other, over the length of the box
+    /// between them [m2]; NaN without one
+    double permeability() const;
+    double total_mass() const;  ///< of the lattice's fluid [kg]
     /// Momentum of the fluid outside the solids, with the part of it that is on its way to them [kg m/s]: adding the solids' own
     /// (m V) gives a sum that only drive, weight and walls change.
     Vec3 total_momentum() const;
+    /// Volume of fluid per time (mass over `density`) that left the box through a face in the last step; through a periodic one too [m3/s].
+    double boundary_flux(Face face) const;
+    /**
+     * Force of the fluid on a face, from the momentum that crosses its links between the last collision and the next one; zero for a periodic face. Of
+     * the excess pressure, like the pressure field: neither hydrostatic pressure nor the drive's is in it. For a velocity or pressure face it
+     * contains the momentum that the fluid carries through it.
+     * In each step, with faces F, drive a and loads on the solids: total_momentum changes by density * acceleration * V_box - sum F (before the step) -
+     * loads (of the step, without buoyancy).
+     */
+    Vec3 boundary_force(Face face) const;   ///< [N]
     double kinetic_energy() const;          ///< of the fluid outside the solids [J]
     double mean_density_deviation() const;  ///< relative to `density` [-]
 

@@ -10,12 +10,19 @@ namespace lbm {
 /// Faces of the box, in the order used by every array of six.
 enum Face { kXMin, kXMax, kYMin, kYMax, kZMin, kZMax };
 
-enum class FaceType { periodic, no_slip };
+/**
+ * no_slip   a wall, at rest or moving in its own plane
+ * free_slip a plane without friction, a plane of symmetry
+ * velocity  fluid with the given velocity, in or out
+ * pressure  fluid at the given pressure that flows along the normal, in or out
+ */
+enum class FaceType { periodic, no_slip, free_slip, velocity, pressure };
 
-/// What happens at one face of the box. A no-slip face stands half a cell outside the last cell centres.
+/// What happens at one face of the box. It stands half a cell outside the last cell centres.
 struct FaceCondition {
     FaceType type = FaceType::periodic;
-    Vec3 velocity{};  ///< of a no-slip wall, in its own plane [m/s]
+    Vec3 velocity{};      ///< of a velocity face; of a no-slip wall, in its own plane [m/s]
+    double pressure = 0;  ///< of a pressure face, excess over hydrostatic and drive, as Fluid::pressure_at [Pa]
 };
 
 /// The velocity set. D3Q27 is isotropic to higher order and costs about half as much again in time and memory.

@@ -13,6 +13,7 @@ const FluidConfig& Fluid::config() const noexcept { return implementation_->conf
 void Fluid::place_solids(const std::vector<Solid>& solids) { implementation_->place(solids); }
 void Fluid::step() { implementation_->step(); }
 void Fluid::change_tau(double tau) { implementation_->change_tau(tau); }
+void Fluid::change_faces(const std::array<FaceCondition, 6>& faces) { implementation_->change_faces(faces); }
 const std::vector<SolidLoad>& Fluid::loads() const noexcept { return implementation_->loads; }
 double Fluid::dt() const noexcept { return implementation_->dt; }
 double Fluid::time() const noexcept { return implementation_->time(); }

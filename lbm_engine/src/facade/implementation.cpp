@@ -19,8 +19,25 @@ double magic_parameter(const FluidConfig& c)
 std::array<FaceCondition, 6> lattice_faces(const FluidConfig& c, const Units& units)
 {
     auto faces = c.faces;
-    for (FaceCondition& face : faces) face.velocity = (1 / units.velocity) * face.velocity;
+    for (FaceCondition& face : faces) {
+        face.velocity = (1 / units.velocity) * face.velocity;
+        // as a deviation of the density from rho_0
+        face.pressure /= units.pressure * kSpeedOfSound * kSpeedOfSound;
+    }
     return faces;
+}
+
+/// Of the pressure faces: where the fluid starts from.
+double mean_face_pressure(const std::array<FaceCondition, 6>& faces)
+{
+    double sum = 0;
+    int number = 0;
+    for (const FaceCondition& face : faces)
+        if (face.type == FaceType::pressure) {
+            sum += face.pressure;
+            ++number;
+        }
+    return number ? sum / number : 0;
 }
 
 std::array<bool, 3> periodic_axes(const FluidConfig& c)
@@ -77,10 +94,29 @@ Fluid::Implementation::Implementation(const FluidConfig& c)
     , units(c.dx, dt, c.density)
     , collision{TrtRates(c.tau, magic_parameter(c)), {}, Weighting(magic_parameter(c)).low_noise}
     , populations(make_populations(c))
-    , faces(std::visit([&](const auto& f) { return Faces(f.layout, lattice_faces(c, units)); }, populations))
+    , faces(std::visit([&](const auto& f) { return Faces(f.layout, lattice_faces(c, units), c.inertia); }, populations))
     , map(c.cells, periodic_axes(c), Weighting(magic_parameter(c)))
 {
     for (int d = 0; d < 3; ++d) collision.body_force[d] = c.acceleration[d] / units.acceleration;
+    start_at(mean_face_pressure(lattice_faces(c, units)));
+}
+
+/// Gives the fluid at rest a density deviation. All slots, since what left through the faces has to fit too.
+void Fluid::Implementation::start_at(double drho)
+{
+    if (drho == 0) return;
+    const ThreadCount threads(config.threads);
+    std::visit(
+        [&]<class L, class T>(Populations<L, T>& f) {
+            const Layout<L>& layout = f.layout;
+#pragma omp parallel for schedule(static)
+            for (int z = -1; z <= layout.n[2]; ++z)
+                for (int y = -1; y <= layout.n[1]; ++y)
+                    for (int i = 0; i < L::Q; ++i)
+                        std::fill_n(f.data() + layout.slot(i, -1, y, z), layout.n[0] + 2,
+                                    static_cast<T>(L::w(i) * drho));
+        },
+        populations);
 }
 
 LatticeSphere Fluid::Implementation::in_lattice_units(const Solid& solid) const
@@ -184,14 +220,10 @@ void Fluid::Implementation::step()
     std::visit(
         [&](auto& f) {
             auto* const slots = f.data();
-            const auto x_faces = [&, to_odd = !f.odd](int y, int z) {
-                if (to_odd) faces.fill_row(slots, y, z);
-                else faces.drain_row(slots, y, z);
-            };
+            const auto x_faces = [&, to_odd = !f.odd](int y, int z) { faces.stream_row(slots, y, z, to_odd); };
             const SpeedWatch speeds = sweep(f, collision, config.inertia, map, x_faces);
             times.collide_stream += watch_time.lap();
-            if (f.odd) faces.fill(f.data());
-            else faces.drain(f.data());
+            faces.stream(f.data(), f.odd);
             times.exchange += watch_time.lap();
             ++steps;
             watch(speeds);
@@ -234,12 +266,8 @@ void Fluid::Implementation::change_tau(double tau)
     units = Units(config.dx, dt, config.density);
     collision = to;
     max_speed2 *= s * s;
-    std::visit(
-        [&](auto& f) {
-            faces = Faces(f.layout, lattice_faces(config, units));
-            faces.restore(f.data(), f.odd);
-        },
-        populations);
+    rebuild_faces(s * s);
+    std::visit([&](auto& f) { faces.restore(f.data(), f.odd); }, populations);
     map.scale_velocities(s);
 
     // What the solids hold changes from step to step by s^2 of what it did.
@@ -250,6 +278,30 @@ void Fluid::Implementation::change_tau(double tau)
                                 after[i].angular_momentum -
                                     (s * s) * (before[i].angular_momentum - ledger.angular_momentum));
     }
+}
+
+void Fluid::Implementation::change_faces(const std::array<FaceCondition, 6>& to)
+{
+    FluidConfig changed = config;
+    changed.faces = to;
+    for (int face = 0; face < 6; ++face)
+        if (to[face].type != config.faces[face].type)
+            throw ConfigError(message("face ", face, " along ", "xyz"[face / 2],
+                                      ": its type cannot change any more; only velocities and pressures may"));
+    validate(changed);
+    config = changed;
+    rebuild_faces(1);
+}
+
+void Fluid::Implementation::rebuild_faces(double dynamic_pressure_scale)
+{
+    std::visit(
+        [&](const auto& f) {
+            Faces next(f.layout, lattice_faces(config, units), config.inertia);
+            next.take_over(faces, dynamic_pressure_scale);
+            faces = std::move(next);
+        },
+        populations);
 }
 
 void Fluid::Implementation::settle_loads()

@@ -59,11 +59,14 @@ struct Fluid::Implementation {
 
     explicit Implementation(const FluidConfig& c);
 
+    void start_at(double drho);
     void place(const std::vector<Solid>& now);
     /// Whether a solid goes on being what it was; one that jumped by more than its radius is another one.
     bool is_same(const Solid& now, const Solid& before) const;
     void step();
     void change_tau(double tau);
+    void change_faces(const std::array<FaceCondition, 6>& to);
+    void rebuild_faces(double dynamic_pressure_scale);
     double time() const { return time_before_dt + static_cast<double>(steps - steps_before_dt) * dt; }
     void settle_loads();
     SolidLoad load_in_si(std::size_t s, const LoadLedger::Load& load, const SolidSums& sums) const;
@@ -93,6 +96,8 @@ struct Fluid::Implementation {
     {
         return (static_cast<std::size_t>(cell.z) * config.cells[1] + cell.y) * config.cells[0] + cell.x;
     }
+    /// What passes through the faces, in lattice units.
+    std::array<Faces::Passage, 6> passages() const;
     CellState cell_at(int x, int y, int z) const;
     double cell_count() const { return double(config.cells[0]) * config.cells[1] * config.cells[2]; }
 };

@@ -14,8 +14,38 @@ Vec3 Fluid::average_velocity() const
 
 double Fluid::permeability() const
 {
-    const Vec3& a = config().acceleration;
-    return config().viscosity / config().density * dot(average_velocity(), a) / dot(a, a);
+    const FluidConfig& c = config();
+    Vec3 drive = c.density * c.acceleration;
+    for (int d = 0; d < 3; ++d) {
+        const FaceCondition &low = c.faces[2 * d], &high = c.faces[2 * d + 1];
+        if (low.type == FaceType::pressure && high.type == FaceType::pressure)
+            drive[d] += (low.pressure - high.pressure) / (c.cells[d] * c.dx);
+    }
+    return c.viscosity * dot(average_velocity(), drive) / dot(drive, drive);
+}
+
+std::array<Faces::Passage, 6> Fluid::Implementation::passages() const
+{
+    return std::visit(
+        [&]<class L, class T>(const Populations<L, T>& f) {
+            return faces.passages(f.data(), f.odd, [&](int x, int y, int z) {
+                double in[L::Q];
+                f.incoming(x, y, z, in);
+                return moments<L>(in).drho;
+            });
+        },
+        populations);
+}
+
+double Fluid::boundary_flux(Face face) const
+{
+    const Units& units = implementation_->units;
+    return units.mass / (units.density * units.time) * implementation_->passages()[face].volume;
+}
+
+Vec3 Fluid::boundary_force(Face face) const
+{
+    return implementation_->units.force * implementation_->passages()[face].momentum;
 }
 
 double Fluid::mean_density_deviation() const

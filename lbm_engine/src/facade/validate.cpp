@@ -1,6 +1,7 @@
 #include "facade/validate.hpp"
 
 #include "lattice/message.hpp"
+#include "lattice/units.hpp"
 #include "lattice/vec3.hpp"
 
 #include <unordered_set>
@@ -15,6 +16,59 @@ void require_finite(const char* name, const Vec3& v, const char* unit)
 }
 
 constexpr char kAxis[] = "xyz";
+constexpr const char* kFaceNames[6] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
+
+/// Decimal input is off by 1e-15; the mass of the fluid may not drift with more.
+constexpr double kBalanced = 1e-9;
+
+/// Of the density, by a pressure face: beyond, a liquid of constant density is not what is computed.
+constexpr double kLargestDensityDeviation = 0.1;
+
+void validate_face(const FluidConfig& c, int index)
+{
+    const FaceCondition& face = c.faces[index];
+    const char* const name = kFaceNames[index];
+    const int axis = index / 2;
+    require_finite(message("velocity of face ", name).c_str(), face.velocity, "m/s");
+    if (face.type != FaceType::no_slip && face.type != FaceType::velocity && norm(face.velocity) > 0)
+        throw ConfigError(
+            message("velocity of face ", name, ": only a velocity face or a moving no-slip wall has one"));
+    if (face.type == FaceType::no_slip && face.velocity[axis] != 0)
+        throw ConfigError(message("wall velocity along ", kAxis[axis], " = ", face.velocity[axis], " m/s at face ",
+                                  name, ", normal to it: a wall can only move in its own plane; use a velocity face"));
+    if (!std::isfinite(face.pressure))
+        throw ConfigError(message("pressure of face ", name, " = ", face.pressure, ": must be finite [Pa]"));
+    if (face.type != FaceType::pressure && face.pressure != 0)
+        throw ConfigError(
+            message("pressure of face ", name, " = ", face.pressure, " Pa: only a pressure face has one"));
+    const double dt = fluid_time_step(c.tau, c.dx, c.viscosity / c.density);
+    const double bulk_modulus = c.density * c.dx * c.dx / (3 * dt * dt);
+    const double deviation = std::abs(face.pressure) / bulk_modulus;
+    if (c.inertia && deviation > kLargestDensityDeviation)
+        throw ConfigError(message(
+            "pressure of face ", name, " = ", face.pressure, " Pa: changes the density by ", 100 * deviation,
+            " % on this lattice, at most ", 100 * kLargestDensityDeviation,
+            " % are allowed; use tau <= ", 0.5 + (c.tau - 0.5) * std::sqrt(kLargestDensityDeviation / deviation),
+            ", a smaller dx, or take a part that is common to all pressure faces off"));
+}
+
+/// What comes in through velocity faces must leave somewhere.
+void validate_inflow(const FluidConfig& c)
+{
+    double outflow = 0, size = 0;
+    for (int index = 0; index < 6; ++index) {
+        const FaceCondition& face = c.faces[index];
+        if (face.type == FaceType::pressure) return;
+        const int axis = index / 2;
+        const double area = double(c.cells[(axis + 1) % 3]) * c.cells[(axis + 2) % 3] * c.dx * c.dx;
+        outflow += (index % 2 ? 1 : -1) * face.velocity[axis] * area;
+        size += std::abs(face.velocity[axis]) * area;
+    }
+    if (std::abs(outflow) > kBalanced * size)
+        throw ConfigError(message("velocity faces let ", std::abs(outflow), " m3/s more ",
+                                  outflow > 0 ? "out than in" : "in than out",
+                                  ": make the velocities balance, or one of the faces a pressure face"));
+}
 
 }  // namespace
 
@@ -42,17 +96,9 @@ void validate(const FluidConfig& c)
         if ((low.type == FaceType::periodic) != (high.type == FaceType::periodic))
             throw ConfigError(message("boundary along ", kAxis[d],
                                       ": one face is periodic and the other is not; both or none must be"));
-        for (const FaceCondition* face : {&low, &high}) {
-            require_finite("wall velocity", face->velocity, "m/s");
-            if (face->type == FaceType::periodic && norm(face->velocity) > 0)
-                throw ConfigError(
-                    message("wall velocity at a periodic face along ", kAxis[d], ": only a no-slip face can move"));
-            if (face->velocity[d] != 0)
-                throw ConfigError(message("wall velocity along ", kAxis[d], " = ", face->velocity[d],
-                                          " m/s at a face normal to ", kAxis[d],
-                                          ": a wall can only move in its own plane"));
-        }
+        for (int side = 0; side < 2; ++side) validate_face(c, 2 * d + side);
     }
+    validate_inflow(c);
 }
 
 void validate(const FluidConfig& c, const std::vector<Solid>& solids)
