@@ -1,6 +1,6 @@
 """How a load of the fluid should reach grains that make several steps per fluid step: three schemes, measured.
 
-    scripts/yade -n -x -j1 scripts/validate.d/time_coupling.py [--study release fall contact] [--output DIR]
+    scripts/yade -n -x -j1 scripts/validate.d/time_coupling.py [--study release light fall contact] [--output DIR]
 
 With the loads L of the present and the last fluid step the grains get, until the next one,
 
@@ -11,7 +11,7 @@ With the loads L of the present and the last fluid step the grains get, until th
 All three hand over the same impulse in the long run. The other two are put on top of LbmEngine by a runner behind it.
 
 Studies, each against the number of grain steps per fluid step, n:
-release: a sphere starts from rest in a periodic box, against the exact solution; fall: a sphere falls in a closed box at a Reynolds number of
+release: a sphere starts from rest in a periodic box, against the exact solution; light: the smallest density ratio that is stable; fall: a sphere falls in a closed box at a Reynolds number of
 about 4; contact: a sphere lies down on the floor, its contact undamped, ringing with the frequency omega: what motion is left, against omega
 times the fluid step. Prints JSON, draws a plot.
 """
@@ -50,7 +50,7 @@ class Coupling:
     def __init__(self, fluid, scheme):
         self.fluid, self.factor = fluid, SCHEMES[scheme]
         self.steps, self.load, self.last = 0, None, None
-        self.history = [(0.0, *O.bodies[0].state.pos, 0.0)]
+        self.history = []  # at the beginning of each fluid step: time, position, velocity along z
 
     def correct(self):
         """Called by YADE between fluid and integrator."""
@@ -66,9 +66,23 @@ class Coupling:
 def start(fluid, scheme, gravity, contacts=()):
     """Completes a scene; returns its Coupling."""
     coupling = builtins.coupling = Coupling(fluid, scheme)
-    O.engines = [ForceResetter(), *contacts, fluid, PyRunner(command="coupling.correct()", iterPeriod=1),
+    O.engines = [ForceResetter(), *contacts, fluid, PyRunner(command="coupling.correct()", iterPeriod=1, initRun=True),
                  NewtonIntegrator(gravity=gravity, damping=0)]
     return coupling
+
+
+def periodic_sphere(scheme, n, density_ratio, tau, radius, box):
+    """A sphere at rest under a force that the drive takes up again; its Coupling and its Stokes velocity."""
+    O.reset()
+    R = radius * DX
+    volume, cell = 4 / 3 * math.pi * R**3, (box * DX)**3
+    stokes = 1e-4 * NU / R
+    force = 6 * math.pi * VISCOSITY * R * stokes
+    O.bodies.append(utils.sphere([0.5 * box * DX + 2e-4] * 3, R, material=FrictMat(density=density_ratio * DENSITY)))
+    fluid = LbmEngine(upper=[box * DX] * 3, dx=DX, density=DENSITY, viscosity=VISCOSITY, tau=tau, boundary=["periodic"] * 6,
+                      acceleration=(0, 0, -force / (DENSITY * cell)))
+    O.dt = fluid_step(tau) / n
+    return start(fluid, scheme, (0, 0, force / (density_ratio * DENSITY * volume))), stokes
 
 
 def release(scheme, n, density_ratio, tau=0.6, radius=4.5, box=36):
@@ -77,30 +91,43 @@ def release(scheme, n, density_ratio, tau=0.6, radius=4.5, box=36):
     with open(path, encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(line for line in file if not line.startswith("#"))
                 if int(row["box_cells"]) == box and float(row["q"]) == density_ratio]
-    O.reset()
-    R, unit = radius * DX, (radius * DX)**2 / NU
-    volume, cell = 4 / 3 * math.pi * R**3, (box * DX)**3
-    stokes = 1e-4 * NU / R
-    force = 6 * math.pi * VISCOSITY * R * stokes
-    terminal = float(rows[0]["Ut_over_stokes"]) * stokes
-    O.bodies.append(utils.sphere([0.5 * box * DX + 2e-4] * 3, R, material=FrictMat(density=density_ratio * DENSITY)))
-    fluid = LbmEngine(upper=[box * DX] * 3, dx=DX, density=DENSITY, viscosity=VISCOSITY, tau=tau, boundary=["periodic"] * 6,
-                      acceleration=(0, 0, -force / (DENSITY * cell)))
-    O.dt = fluid_step(tau) / n
-    coupling = start(fluid, scheme, (0, 0, force / (density_ratio * DENSITY * volume)))
-    O.run(math.ceil(3 * unit / O.dt) + n, True)
-    found = [row[4] for row in coupling.history[1:]]  # at the beginning of each fluid step
+    coupling, stokes = periodic_sphere(scheme, n, density_ratio, tau, radius, box)
+    terminal, unit = float(rows[0]["Ut_over_stokes"]) * stokes, (radius * DX)**2 / NU
+    O.run(math.ceil(3 * unit / O.dt) + 2 * n, True)
+    found = [row[4] for row in coupling.history]
     worst = late = 0.0
     for row in rows:
         time, ratio = float(row["t_nu_over_a2"]), float(row["U_over_Ut"])
         part, step = math.modf(time * unit / fluid_step(tau))
-        if time > 3 or int(step) + 1 >= len(found):
+        if time > 3:
             break
         error = ((1 - part) * found[int(step)] + part * found[int(step) + 1]) / terminal - ratio
         worst = max(worst, abs(error))
         if time >= 0.3:
             late = max(late, abs(error / ratio))
     return {"worst_percent_of_terminal": 100 * worst, "late_percent_of_current": 100 * late}
+
+
+def is_stable(scheme, density_ratio, tau, radius=4.5, box=20):
+    """Whether a light sphere, released, stays below twice its Stokes velocity for 1500 steps."""
+    coupling, stokes = periodic_sphere(scheme, 1, density_ratio, tau, radius, box)
+    try:
+        O.run(1500, True)
+    except RuntimeError:
+        return False
+    return all(abs(row[4]) < 2 * stokes for row in coupling.history)
+
+
+def light(scheme):
+    """The smallest of some density ratios from which on all are stable, for each tau."""
+    smallest = {}
+    for tau in (0.52, 0.6, 1.0, 2.0):
+        smallest[tau] = None
+        for q in (1.0, 0.7, 0.5, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05):
+            if not is_stable(scheme, q, tau):
+                break
+            smallest[tau] = q
+    return smallest
 
 
 def fall(scheme, n, tau=0.7, diameter=8, box=(24, 24, 48), height=36):
@@ -153,7 +180,7 @@ def at(times, values, t):
 
 def compare_falls(runs):
     """Each run against `held` with one grain step per fluid step."""
-    base = runs["held"][1]
+    base = dict(runs["held"][1])
     peak = max(base["speeds"])
     for by_count in runs.values():
         for run in by_count.values():
@@ -169,12 +196,14 @@ def compare_falls(runs):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--study", nargs="+", default=["release", "fall", "contact"])
+    parser.add_argument("--study", nargs="+", default=["release", "light", "fall", "contact"])
     parser.add_argument("--output", default=None, metavar="DIR", help="folder for the JSON and the plot; default: print only")
     options = parser.parse_args(sys.argv[1:])
     results = {}
     if "release" in options.study:
         results["release"] = {str(q): {s: {n: release(s, n, q) for n in COUNTS} for s in SCHEMES} for q in (0.5, 1.05, 2.5)}
+    if "light" in options.study:
+        results["light"] = {s: light(s) for s in SCHEMES}
     if "fall" in options.study:
         results["fall"] = compare_falls({s: {n: fall(s, n) for n in COUNTS} for s in SCHEMES})
     if "contact" in options.study:

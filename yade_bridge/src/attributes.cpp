@@ -68,6 +68,13 @@ const std::vector<Attribute>& attributes()
                           "Corrections for gaps that the lattice cannot resolve; False is supported today."),
         YADELBM_ATTRIBUTE("maxMach", max_mach, false,
                           "Largest Mach number on the lattice [-], default 0.2; a run that goes beyond it stops."),
+        YADELBM_ATTRIBUTE("accuracy", accuracy, false,
+                          "Estimated error [-] up to which the cheapest time step is chosen where tau is NaN, and that "
+                          "suggestDx and suggestDt aim at; default 0.02. plan() shows what it is made of."),
+        YADELBM_ATTRIBUTE(
+            "stopFile", stop_file, true,
+            "Where the state is written when the fluid stops a run by itself (a flow that diverges or is too "
+            "fast), VTK image data, default 'lbm-stopped.vti' in the working directory; '': nowhere."),
         YADELBM_ATTRIBUTE("ranks", ranks, false, "0, the fluid in this process, is supported today."),
     };
     return table;

@@ -54,6 +54,10 @@ public:
     void change_settings(const char* name, bool live, const std::function<void(Settings&)>& change);
 
     FluidPlan plan() const;
+    /// @param solid_fraction  NaN: of the spheres in the box; the others as lbm::Budget. @throws lbm::ConfigError
+    double suggest_dx(double solid_fraction, double memory, double seconds) const;
+    /// @param largest  NaN: 0.3 utils.PWaveTimeStep(). @throws lbm::ConfigError
+    double suggest_dt(double largest, double seconds) const;
 
     // what the fluid says; each @throws std::runtime_error before the fluid exists
     lbm::SolidLoad load_on(int id) const;
@@ -87,6 +91,8 @@ private:
     void step_fluid();
     void account(Part part, double seconds, long executions);
     const lbm::Fluid& fluid(const char* asked) const;
+    double throughput() const;
+    std::string kept_state() const;
 
     friend class boost::serialization::access;
     template <class Archive>

@@ -25,6 +25,23 @@ bp::list warnings(const yadelbm::FluidPlan& plan)
     return list;
 }
 
+/// Rows of the ranking, best first.
+bp::list ranking(const yadelbm::FluidPlan& plan)
+{
+    bp::list list;
+    for (const lbm::StepEstimate& e : plan.ranking) {
+        bp::dict row;
+        row["tau"] = e.tau;
+        row["fluidDt"] = e.fluid_dt;
+        row["stepsPerFluidStep"] = e.steps_per_fluid_step;
+        row["mach"] = e.mach;
+        row["estimatedError"] = e.estimated_error;
+        row["cost"] = e.cost;
+        list.append(row);
+    }
+    return list;
+}
+
 bp::tuple cells(const yadelbm::FluidPlan& plan) { return bp::make_tuple(plan.cells[0], plan.cells[1], plan.cells[2]); }
 
 void define_plan()
@@ -40,6 +57,18 @@ void define_plan()
         .def_readonly("cellsPerDiameter", &Plan::cells_per_diameter, "Cells per diameter of the smallest sphere.")
         .def_readonly("motionPerStep", &Plan::motion_per_step, "Motion of a surface per fluid step [cells].")
         .def_readonly("compressibilityError", &Plan::compressibility_error, "Relative density change, Ma^2 [-].")
+        .def_readonly("staticCompression", &Plan::static_compression,
+                      "Relative density change by the pressure at rest that the lattice carries [-].")
+        .def_readonly("transientError", &Plan::transient_error,
+                      "Estimated error of motion within the grains' response time [-].")
+        .def_readonly("estimatedError", &Plan::estimated_error,
+                      "Sum of compressibilityError, staticCompression and transientError [-].")
+        .def_readonly("contactPhase", &Plan::contact_phase,
+                      "Frequency of the stiffest contact times the fluid step [-]; 0 if not known.")
+        .def_readonly("viscousTime", &Plan::viscous_time, "R^2 / nu of the smallest sphere [s].")
+        .def_readonly("acousticTime", &Plan::acoustic_time, "Sound on the lattice crosses the box in this time [s].")
+        .def_readonly("cost", &Plan::cost, "Estimated seconds of wall-clock time per simulated second.")
+        .add_property("ranking", &ranking, "What was compared, best first: a list of dictionaries.")
         .def_readonly("shortestTransient", &Plan::shortest_transient, "Times above this are resolved to 1 % [s].")
         .add_property("cells", &cells, "Cells along x, y, z.")
         .def_readonly("memory", &Plan::memory_bytes, "Memory of the fluid [bytes].")

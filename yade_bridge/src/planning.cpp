@@ -111,26 +111,28 @@ void check_scene(const yade::Scene& scene, const Settings& s, const std::vector<
     check_spheres(s, solids);
 }
 
-lbm::Plan plan_for_scene(const yade::Scene& scene, const Settings& s, const std::vector<lbm::Solid>& solids, double tau,
-                         const char* why_tau)
+lbm::PlanRequest plan_request(const yade::Scene& scene, const Settings& s, const std::vector<lbm::Solid>& solids)
 {
     lbm::PlanRequest request;
-    request.cells = cells(s);
+    if (!std::isnan(s.dx)) request.cells = cells(s);
     request.dx = s.dx;
     request.density = s.density;
     request.viscosity = s.viscosity;
     request.grain_dt = scene.dt;
-    request.tau = tau;
-    request.why_tau = why_tau;
+    request.tau = s.tau;
     request.max_mach = s.max_mach;
+    request.accuracy = s.accuracy;
+    request.storage = s.storage == "single" ? lbm::Storage::single_precision : lbm::Storage::double_precision;
     request.speed = expected_speed(s, solids);
+    request.response_time = response_time(s, solids, request.speed);
+    request.static_pressure = static_pressure(s, solids);
     double radii = 0;
     for (const lbm::Solid& solid : solids) {
         request.smallest_radius = std::min(request.smallest_radius, solid.radius);
         radii += solid.radius;
     }
     if (!solids.empty()) request.mean_diameter = 2 * radii / static_cast<double>(solids.size());
-    return lbm::plan_time_step(request);
+    return request;
 }
 
 }  // namespace yadelbm

@@ -31,18 +31,26 @@ void check_cell(const yade::Scene& scene, const Settings& settings);
 void check_selection(const Settings& settings, const std::vector<lbm::Solid>& solids);
 
 /**
- * A time step of the fluid for the scene as it is now.
- * @param tau      NaN: to be chosen
- * @param why_tau  for the report, where it is not
- * @throws lbm::ConfigError  if no step meets the limits
+ * What the planner wants to know of the scene as it is now; settings that are not set stay NaN. Contact stiffness and throughput
+ * are left to those who know them.
  */
-lbm::Plan plan_for_scene(const yade::Scene& scene, const Settings& settings, const std::vector<lbm::Solid>& solids,
-                         double tau, const char* why_tau = "tau was given");
+lbm::PlanRequest plan_request(const yade::Scene& scene, const Settings& settings,
+                              const std::vector<lbm::Solid>& solids);
 
 /**
  * What in the scene is likely not meant, each a sentence: damping, another gravity, contacts that do not cross a periodic
  * face. Asks YADE's Python objects: to be called from Python only.
  */
 std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& settings);
+
+/**
+ * Frequency sqrt(k / m) of the stiffest contact [rad/s]: of those that there are, else of two equal spheres, from Young's moduli and radii
+ * (k = young R, as Ip2_FrictMat_FrictMat_FrictPhys has it); 0 where neither is known. Asks YADE's Python objects: to be
+ * called from Python only.
+ */
+double contact_frequency(const yade::Scene& scene, const std::vector<lbm::Solid>& solids);
+
+/// The largest step that YADE deems stable for the contacts, utils.PWaveTimeStep() [s]; to be called from Python only.
+double critical_time_step();
 
 }  // namespace yadelbm

@@ -104,6 +104,22 @@ void define_queries(PythonClass& python_class)
              "Checks the scene and plans the fluid's time step, without starting anything: a FluidPlan, to print or to "
              "ask. Raises ValueError with what is wrong.")
         .def(
+            "suggestDx", &LbmEngine::suggest_dx,
+            (bp::arg("self"), bp::arg("solidFraction") = Settings::kUnset,
+             bp::arg("memory") = lbm::PlanRequest::kInfinity, bp::arg("seconds") = lbm::PlanRequest::kInfinity),
+            "The largest dx [m] with which the drag of the smallest sphere is within `accuracy` and the box is a whole "
+            "number "
+            "of cells, at least 8 per diameter; the engine's own dx may still be unset. solidFraction: of the densest "
+            "region, default that of the box, for a bed give the bed's. memory [bytes], seconds of wall-clock time per "
+            "simulated second: what it may take; ValueError with what would fit if that is too little.")
+        .def("suggestDt", &LbmEngine::suggest_dt,
+             (bp::arg("self"), bp::arg("largest") = Settings::kUnset, bp::arg("seconds") = lbm::PlanRequest::kInfinity),
+             "An O.dt [s] of which the longest fluid step within `accuracy` is a whole multiple. largest: what the "
+             "contacts "
+             "allow [s], default 0.3 utils.PWaveTimeStep(). seconds of wall-clock time per simulated second: what the "
+             "fluid "
+             "may take; ValueError with what would fit if that is too little.")
+        .def(
             "fluidForce", +[](const LbmEngine& e, int id) { return to_python(e.load_on(id).force); },
             "Force on a body in the last fluid step, buoyancy included [N]; ValueError if it was not in the fluid.")
         .def(

@@ -6,8 +6,10 @@
 #include <core/Scene.hpp>
 
 #include <boost/python.hpp>
+#include <boost/python/stl_iterator.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace yadelbm {
 namespace {
@@ -28,7 +30,52 @@ void warn_about_integrator(const bp::object& integrator, const Settings& s, std:
                               text(s.gravity) + " differ: weight and buoyancy of a grain do not belong together.");
 }
 
+/// Mass that answers to a force on the body; infinite for one that is blocked.
+double inverse_mass(const bp::object& body)
+{
+    const bp::object state = body.attr("state");
+    const std::string blocked = bp::extract<std::string>(state.attr("blockedDOFs"));
+    const double mass = bp::extract<double>(state.attr("mass"));
+    const bool free =
+        blocked.find_first_of("xyz") == std::string::npos && bool(bp::extract<bool>(body.attr("dynamic")));
+    return free && mass > 0 ? 1 / mass : 0;
+}
+
+double frequency_of_contacts(const bp::object& omega)
+{
+    double largest2 = 0;
+    const bp::object bodies = omega.attr("bodies");
+    const bp::object contacts = omega.attr("interactions");
+    for (bp::stl_input_iterator<bp::object> contact(contacts), end; contact != end; ++contact) {
+        if (!bp::extract<bool>(contact->attr("isReal"))) continue;
+        const bp::object stiffness = bp::getattr(contact->attr("phys"), "kn", bp::object());
+        if (stiffness.is_none()) continue;
+        const double inverse = inverse_mass(bodies[contact->attr("id1")]) + inverse_mass(bodies[contact->attr("id2")]);
+        largest2 = std::max(largest2, bp::extract<double>(stiffness) * inverse);
+    }
+    return std::sqrt(largest2);
+}
+
 }  // namespace
+
+double contact_frequency(const yade::Scene& scene, const std::vector<lbm::Solid>& solids)
+{
+    const bp::object omega = bp::import("yade.wrapper").attr("Omega")();
+    const double found = frequency_of_contacts(omega);
+    if (found > 0) return found;
+    double largest2 = 0;
+    for (const lbm::Solid& solid : solids) {
+        const auto& body = scene.bodies->body[static_cast<std::size_t>(solid.id)];
+        if (!std::isfinite(solid.mass) || !body) continue;
+        const bp::object material = bp::object(body).attr("material");
+        const bp::object young = bp::getattr(material, "young", bp::object());
+        if (young.is_none()) continue;
+        largest2 = std::max(largest2, 2 * bp::extract<double>(young) * solid.radius / solid.mass);
+    }
+    return std::sqrt(largest2);
+}
+
+double critical_time_step() { return bp::extract<double>(bp::import("yade.utils").attr("PWaveTimeStep")()); }
 
 std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& s)
 {

@@ -49,6 +49,7 @@ void check_numbers(const Settings& s, bool complete)
     require_positive("density", s.density, "kg/m3", complete);
     require_positive("viscosity", s.viscosity, "Pa s, dynamic", complete);
     require_positive("maxMach", s.max_mach, "-", true);
+    require_positive("accuracy", s.accuracy, "-", true);
     require_positive("magicParameter", s.magic_parameter, "-; NaN: the scheme's own", false);
     require_finite("lower", s.lower, "m");
     require_finite("gravity", s.gravity, "m/s2");

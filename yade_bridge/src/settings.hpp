@@ -32,6 +32,8 @@ struct Settings {
     std::vector<int> ids;
     bool lubrication = false;
     double max_mach = 0.2;
+    double accuracy = 0.02;
+    std::string stop_file = "lbm-stopped.vti";
     int ranks = 0;
 };
 

@@ -76,6 +76,41 @@ double settling_speed(double diameter, double density_difference, double gravity
     return high;
 }
 
+double response_time(const Settings& s, const std::vector<lbm::Solid>& solids, double speed)
+{
+    double shortest = std::numeric_limits<double>::infinity();
+    const double nu = s.viscosity / s.density;
+    for (const lbm::Solid& solid : solids) {
+        if (!std::isfinite(solid.mass)) continue;
+        const double ratio = solid.mass / (s.density * sphere_volume(solid.radius));
+        const double stokes = (ratio + 0.5) * (2.0 / 9) * solid.radius * solid.radius / nu;
+        const double reynolds = std::min(speed * 2 * solid.radius / nu, 1000.0);
+        shortest = std::min(shortest, stokes / (1 + 0.15 * std::pow(reynolds, 0.687)));
+    }
+    return shortest;
+}
+
+double static_pressure(const Settings& s, const std::vector<lbm::Solid>& solids)
+{
+    double pressure = 0, diameters = 0;
+    for (const lbm::Solid& solid : solids) diameters += 2 * solid.radius;
+    const double mean_diameter = solids.empty() ? 0 : diameters / static_cast<double>(solids.size());
+    for (int axis = 0; axis < 3; ++axis) {
+        const double length = s.upper[axis] - s.lower[axis];
+        const bool periodic = s.boundary[2 * axis] == "periodic";
+        pressure += s.density * std::abs(s.acceleration[axis]) * (periodic ? mean_diameter : length);
+        if (periodic) continue;
+        double area = 1, weight = 0;
+        for (int other = 0; other < 3; ++other)
+            if (other != axis) area *= s.upper[other] - s.lower[other];
+        for (const lbm::Solid& solid : solids)
+            if (std::isfinite(solid.mass))
+                weight += (solid.mass - s.density * sphere_volume(solid.radius)) * s.gravity[axis];
+        pressure += std::abs(weight) / area;
+    }
+    return pressure;
+}
+
 double expected_speed(const Settings& s, const std::vector<lbm::Solid>& solids)
 {
     double speed = driven_speed(s, solids);

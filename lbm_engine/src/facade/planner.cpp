@@ -424,8 +424,10 @@ double resolution_error(double cells_per_diameter, double reynolds, double solid
 double suggest_dx(const PlanRequest& request, const Vec3& lengths, double solid_fraction, const Budget& budget)
 {
     for (const double length : lengths) require_positive("length of the box", length, "m");
-    require_positive("accuracy", request.accuracy, "-");
     require_positive("smallest radius", request.smallest_radius, "m");
+    PlanRequest start = with_dx(request, lengths, request.smallest_radius);
+    start.grain_dt = 1;  // of no consequence
+    check(start, false);
     if (!(solid_fraction >= 0 && solid_fraction < 1))
         throw ConfigError(message("solid fraction = ", solid_fraction, ": must be >= 0 and < 1"));
     const double diameter = 2 * request.smallest_radius;
@@ -433,9 +435,7 @@ double suggest_dx(const PlanRequest& request, const Vec3& lengths, double solid_
     const auto error = [&](double dx) { return resolution_error(diameter / dx, reynolds, solid_fraction); };
     const double accurate = diameter / std::max(kWantedCellsPerDiameter, std::sqrt(error(diameter) / request.accuracy));
     const double dx = dividing(lengths, accurate);
-    PlanRequest r = with_dx(request, lengths, dx);
-    check(r, false);
-    r.grain_dt = 1;  // of no consequence
+    const PlanRequest r = with_dx(start, lengths, dx);
     const auto fits = [&](double size) {
         const Need n = need(with_dx(r, lengths, size));
         return n.memory_bytes <= budget.memory_bytes && n.cost <= budget.cost;
