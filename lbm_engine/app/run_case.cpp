@@ -86,6 +86,18 @@ private:
 
 }  // namespace
 
+/// Writes the state for the user to look at; a file that cannot be written must not hide why the run stopped.
+std::string kept_state(const Fluid& fluid, const std::string& vtk)
+{
+    if (vtk.empty()) return "";
+    try {
+        fluid.save_vtk(vtk);
+        return "; the state is in " + vtk;
+    } catch (const RunError& error) {
+        return std::string("; the state is not kept: ") + error.what();
+    }
+}
+
 CaseResult run_case(const Case& input, const std::function<void(const Progress&)>& report)
 {
     if (!input.vtk.empty() && !std::ofstream(input.vtk, std::ios::app))
@@ -108,7 +120,11 @@ CaseResult run_case(const Case& input, const std::function<void(const Progress&)
     };
 
     while (fluid.steps() < input.max_steps && !converged) {
-        fluid.step();
+        try {
+            fluid.step();
+        } catch (const RunError& error) {
+            throw RunError(error.what() + kept_state(fluid, input.vtk));
+        }
         motion.advance(fluid.loads());
         fluid.place_solids(motion.solids());
         if (input.steady > 0 && fluid.steps() % steps_between == 0) {

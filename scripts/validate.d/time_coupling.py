@@ -80,7 +80,7 @@ def periodic_sphere(scheme, n, density_ratio, tau, radius, box):
     force = 6 * math.pi * VISCOSITY * R * stokes
     O.bodies.append(utils.sphere([0.5 * box * DX + 2e-4] * 3, R, material=FrictMat(density=density_ratio * DENSITY)))
     fluid = LbmEngine(upper=[box * DX] * 3, dx=DX, density=DENSITY, viscosity=VISCOSITY, tau=tau, boundary=["periodic"] * 6,
-                      acceleration=(0, 0, -force / (DENSITY * cell)))
+                      acceleration=(0, 0, -force / (DENSITY * cell)), stopFile='')
     O.dt = fluid_step(tau) / n
     return start(fluid, scheme, (0, 0, force / (density_ratio * DENSITY * volume))), stokes
 

@@ -1,5 +1,7 @@
 import math
 
+import tempfile
+
 from claims import *
 
 NAN = math.nan
@@ -154,11 +156,23 @@ def too_fast_for_the_lattice_stops_the_run():
     fluid = one_sphere(tau=0.6, boundary=PERIODIC)
     O.run(10, True)
     O.bodies[0].state.vel = (0.5, 0, 0)
+    folder = tempfile.mkdtemp()
+    fluid.stopFile = os.path.join(folder, "state.vti")
     message = check_raises(RuntimeError, "Mach", lambda: O.run(100, True))
+    check("solid 0 at (" in message and "cells per fluid step" in message, "message %r does not say where" % message)
+    check(os.path.getsize(fluid.stopFile) > 0 and fluid.stopFile in message, "no state in %s: %r" % (fluid.stopFile, message))
     steps = fluid.fluidSteps
     check_raises(RuntimeError, "the fluid stopped earlier", lambda: O.run(100, True))
     check(fluid.fluidSteps == steps, "a stopped fluid ran on")
     check("\n" not in message.strip(), "message %r is more than a line" % message)
+
+
+def a_state_that_cannot_be_kept_does_not_hide_the_reason():
+    fluid = one_sphere(tau=0.6, boundary=PERIODIC, stopFile="/no/such/folder/state.vti")
+    O.run(10, True)
+    O.bodies[0].state.vel = (0.5, 0, 0)
+    message = check_raises(RuntimeError, "Mach", lambda: O.run(100, True))
+    check("the state is not kept: cannot write /no/such/folder/state.vti" in message, "message %r" % message)
 
 
 def a_cell_that_is_not_the_box_is_refused():
@@ -181,7 +195,7 @@ def attributes_are_fixed_once_the_fluid_exists():
         check_raises(RuntimeError, "LbmEngine.%s cannot be changed any more" % name, lambda: setattr(fluid, name, value))
     fluid.mask, fluid.ids, fluid.label = 1, [0], "still"
     fluid.ids = [77]
-    check_raises(RuntimeError, "LbmEngine.ids: body 77 does not exist", lambda: O.run(200, True))
+    check_raises(RuntimeError, "LbmEngine.ids: body 77 does not exist", lambda: O.run(500, True))
 
 
 def queries_need_a_fluid():
@@ -192,6 +206,26 @@ def queries_need_a_fluid():
     check_raises(ValueError, "body 5 was not in the fluid", lambda: fluid.fluidForce(5))
     check_raises(ValueError, "", lambda: fluid.getVelocity((1, 1, 1)))
     check_raises(RuntimeError, "", lambda: fluid.saveVtk("/no/such/folder/file.vti"))
+
+
+def stiff_contacts_are_warned_about():
+    """By the stiffness of the contacts that there are, and before by that of the materials."""
+    fluid = box((12, 12, 20), tau=0.6)
+    O.materials.append(FrictMat(density=2500, young=1e4, poisson=0.3, frictionAngle=0))
+    for height in (5e-3, 10.9e-3):
+        O.bodies.append(sphere((6e-3, 6e-3, height), 3e-3))
+    O.engines = engines(fluid)
+    O.dt = 1e-5
+    mass = O.bodies[0].state.mass
+    pair = fluid_step(0.6) * math.sqrt(2 * 1e4 * 3e-3 / mass)
+    check_close(fluid.plan().contactPhase, pair, 1e-9 * pair, "contact frequency from the material")
+    check("contacts ring with up to" in str(fluid.plan()), "no warning")
+    O.run(2, True)
+    contact = next(i for i in O.interactions if i.isReal)
+    found = fluid_step(0.6) * math.sqrt(contact.phys.kn * 2 / mass)
+    check_close(fluid.plan().contactPhase, found, 1e-9 * found, "contact frequency from the contact")
+    contact.phys.kn = 1e-3
+    check("contacts ring with up to" not in str(fluid.plan()), "warning for soft contacts")
 
 
 def what_is_likely_not_meant_is_said():
@@ -220,8 +254,10 @@ prove(
     a_time_step_that_is_no_number_is_refused,
     too_fast_for_the_lattice_is_refused_before_the_run,
     too_fast_for_the_lattice_stops_the_run,
+    a_state_that_cannot_be_kept_does_not_hide_the_reason,
     a_cell_that_is_not_the_box_is_refused,
     attributes_are_fixed_once_the_fluid_exists,
     queries_need_a_fluid,
     what_is_likely_not_meant_is_said,
+    stiff_contacts_are_warned_about,
 )

@@ -15,6 +15,9 @@ inline std::string text(double value)
     return buffer;
 }
 
-inline std::string text(const lbm::Vec3& v) { return "(" + text(v[0]) + ", " + text(v[1]) + ", " + text(v[2]) + ")"; }
+inline std::string text(const lbm::Vec3& v)
+{
+    return std::string("(").append(text(v[0])).append(", ").append(text(v[1])).append(", ").append(text(v[2])).append(")");
+}
 
 }  // namespace yadelbm

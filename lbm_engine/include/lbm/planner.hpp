@@ -82,8 +82,8 @@ struct Plan : StepEstimate {
 /**
  * Chooses (tau = NaN) or checks (tau given) the fluid's time step dt = (tau - 1/2) dx^2 / (3 nu).
  *
- * Compared are whole numbers of grain steps and whole fractions of one, with tau from kMinPlannedTau to kMaxPlannedTau and a Mach number
- * within its limit. Their ranking:
+ * Compared are whole numbers of grain steps and whole fractions of one, with tau from kMinPlannedTau to kMaxPlannedTau (to 1 where the
+ * expected speed is 0, so not known) and a Mach number within its limit. Their ranking:
  *
  *     1. one fluid step per grain step, if its estimated error is within `accuracy`
  *     2. others within `accuracy`, the cheapest first

@@ -216,6 +216,7 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
 void Fluid::Implementation::step()
 {
     const ThreadCount threads(config.threads);
+    watch_surfaces();
     Stopwatch watch_time;
     std::visit(
         [&](auto& f) {
@@ -332,6 +333,27 @@ SolidLoad Fluid::Implementation::load_in_si(std::size_t s, const LoadLedger::Loa
         for (int b = 0; b < 3; ++b)
             si.stresslet[a][b] = -units.torque * (0.5 * (m[a][b] + m[b][a]) - (a == b ? third : 0));
     return si;
+}
+
+/// Before the flow takes harm: no surface in the box may move faster than the flow may.
+void Fluid::Implementation::watch_surfaces() const
+{
+    const double limit = config.max_mach * kSpeedOfSound * units.velocity;
+    for (std::size_t s = 0; s < solids.size(); ++s) {
+        const Solid& solid = solids[s];
+        const double spin = solid.radius * norm(solid.angular_velocity);
+        // |V + W x r| is largest where W x r has the direction of the part of V across W
+        const double speed2 = dot(solid.velocity, solid.velocity);
+        const double along = spin > 0 ? dot(solid.velocity, solid.angular_velocity) / norm(solid.angular_velocity) : 0;
+        const double fastest = std::hypot(along, std::sqrt(std::max(0.0, speed2 - along * along)) + spin);
+        if (fastest <= limit || map.volume(s) == 0) continue;
+        const Vec3& at = solid.position;
+        throw RunError(message("solid ", solid.id, " at (", at[0], ", ", at[1], ", ", at[2], ") before step ",
+                               steps + 1, " (t = ", time(), " s): its surface moves at ", fastest, " m/s, ",
+                               fastest / units.velocity, " cells per fluid step, Mach number ",
+                               fastest / units.velocity / kSpeedOfSound, " is above the limit ", config.max_mach,
+                               ": that needs a fluid step (now ", dt, " s) smaller by that ratio"));
+    }
 }
 
 void Fluid::Implementation::watch(const SpeedWatch& speeds) const

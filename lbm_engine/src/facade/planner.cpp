@@ -26,6 +26,9 @@ constexpr double kTransientPower = 1.3;
 /// Relative density change by the static pressure beyond which the fluid is not nearly incompressible any more.
 constexpr double kMaxStaticCompression = 0.2;
 
+/// Where nothing is known of the speeds, the Mach number cannot be foreseen: longer steps have to be asked for.
+constexpr double kMaxTauWithoutSpeed = 1;
+
 /// Cells across a diameter below which drag errors of several per cent are to be expected.
 constexpr double kWantedCellsPerDiameter = 8;
 
@@ -84,6 +87,7 @@ Range step_range(const PlanRequest& r)
 {
     const double nu = kinematic_viscosity(r);
     Range range{fluid_time_step(kMinPlannedTau, r.dx, nu), fluid_time_step(kMaxPlannedTau, r.dx, nu), 0};
+    if (r.speed == 0) range.longest = fluid_time_step(kMaxTauWithoutSpeed, r.dx, nu);
     if (r.speed > 0) range.longest = std::min(range.longest, r.max_mach * r.dx / (kSqrt3 * r.speed));
     if (r.static_pressure > 0)
         range.longest =
