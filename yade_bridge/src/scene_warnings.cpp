@@ -6,7 +6,6 @@
 #include <core/Scene.hpp>
 
 #include <boost/python.hpp>
-#include <boost/python/stl_iterator.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -45,12 +44,13 @@ double frequency_of_contacts(const bp::object& omega)
 {
     double largest2 = 0;
     const bp::object bodies = omega.attr("bodies");
-    const bp::object contacts = omega.attr("interactions");
-    for (bp::stl_input_iterator<bp::object> contact(contacts), end; contact != end; ++contact) {
-        if (!bp::extract<bool>(contact->attr("isReal"))) continue;
-        const bp::object stiffness = bp::getattr(contact->attr("phys"), "kn", bp::object());
+    const bp::list contacts(omega.attr("interactions"));
+    for (bp::ssize_t i = 0; i < bp::len(contacts); ++i) {
+        const bp::object contact = contacts[i];
+        if (!bp::extract<bool>(contact.attr("isReal"))) continue;
+        const bp::object stiffness = bp::getattr(contact.attr("phys"), "kn", bp::object());
         if (stiffness.is_none()) continue;
-        const double inverse = inverse_mass(bodies[contact->attr("id1")]) + inverse_mass(bodies[contact->attr("id2")]);
+        const double inverse = inverse_mass(bodies[contact.attr("id1")]) + inverse_mass(bodies[contact.attr("id2")]);
         largest2 = std::max(largest2, bp::extract<double>(stiffness) * inverse);
     }
     return std::sqrt(largest2);

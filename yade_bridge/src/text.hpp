@@ -17,7 +17,13 @@ inline std::string text(double value)
 
 inline std::string text(const lbm::Vec3& v)
 {
-    return std::string("(").append(text(v[0])).append(", ").append(text(v[1])).append(", ").append(text(v[2])).append(")");
+    return std::string("(")
+        .append(text(v[0]))
+        .append(", ")
+        .append(text(v[1]))
+        .append(", ")
+        .append(text(v[2]))
+        .append(")");
 }
 
 }  // namespace yadelbm
