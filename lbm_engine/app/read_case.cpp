@@ -138,6 +138,17 @@ void read_boundaries(Section boundaries, FluidConfig& fluid)
     boundaries.close();
 }
 
+Scheme read_scheme(Section& root)
+{
+    const std::string name = root.choice(
+        "scheme", "exact", {"exact", "nobleTorczynski", "nobleTorczynskiLinear", "superposition", "bounceBack"});
+    if (name == "nobleTorczynski") return Scheme::noble_torczynski;
+    if (name == "nobleTorczynskiLinear") return Scheme::noble_torczynski_linear;
+    if (name == "superposition") return Scheme::superposition;
+    if (name == "bounceBack") return Scheme::bounce_back;
+    return Scheme::exact;
+}
+
 CaseSolid read_solid(Section s, std::int64_t id)
 {
     CaseSolid entry;
@@ -191,8 +202,8 @@ Case read_case(const Json& json)
 
     fluid.tau = root.number("tau");
     fluid.magic_parameter = root.number("magic_parameter", fluid.magic_parameter);
-    root.choice("scheme", "exact", {"exact"});
-    root.choice("collision", "trt", {"trt"});
+    fluid.scheme = read_scheme(root);
+    fluid.collision = root.choice("collision", "trt", {"trt", "bgk"}) == "bgk" ? Collision::bgk : Collision::trt;
     fluid.storage = root.choice("storage", "double", {"double", "single"}) == "single" ? Storage::single_precision
                                                                                        : Storage::double_precision;
     fluid.lattice = root.choice("lattice", "D3Q19", {"D3Q19", "D3Q27"}) == "D3Q27" ? Lattice::d3q27 : Lattice::d3q19;

@@ -25,6 +25,18 @@ struct FaceCondition {
     double pressure = 0;  ///< of a pressure face, excess over hydrostatic and drive, as Fluid::pressure_at [Pa]
 };
 
+/// How cells with solids collide: the scheme of this engine, or a published one for comparison (docs/physics.md).
+enum class Scheme {
+    exact,                    ///< partially saturated cells, independent of tau in Stokes flow
+    noble_torczynski,         ///< bounce-back of what is out of equilibrium, B = eps Lp / (1 - eps + Lp)
+    noble_torczynski_linear,  ///< the same with B = eps
+    superposition,            ///< superposition of fluid and solid equilibria, B = eps Lp / (1 - eps + Lp)
+    bounce_back               ///< of all populations in cells that are more than half solid
+};
+
+/// Two relaxation times, whose magic parameter is fixed, or one (Lambda = (tau - 1/2)^2), for comparison.
+enum class Collision { trt, bgk };
+
 /// The velocity set. D3Q27 is isotropic to higher order and costs about half as much again in time and memory.
 enum class Lattice { d3q19, d3q27 };
 
@@ -39,11 +51,13 @@ struct FluidConfig {
     double density = 0;          ///< [kg/m3], > 0
     double viscosity = 0;        ///< dynamic [Pa s], > 0
     double tau = 0;              ///< relaxation time [fluid steps], kMinTau to kMaxTau; sets the time step
-    double magic_parameter = std::numeric_limits<double>::quiet_NaN();  ///< Lambda > 0; NaN: the scheme's own, 1/8
+    double magic_parameter = std::numeric_limits<double>::quiet_NaN();  ///< Lambda > 0; NaN: the scheme's own
     Vec3 gravity{};       ///< buoyancy on solids [m/s2]; hydrostatic pressure is left out of the fields
     Vec3 acceleration{};  ///< uniform drive: a mean pressure gradient of -density * acceleration [m/s2]
     std::array<FaceCondition, 6> faces{};
     bool inertia = true;  ///< false: Stokes flow, the quadratic terms dropped
+    Scheme scheme = Scheme::exact;
+    Collision collision = Collision::trt;
     Lattice lattice = Lattice::d3q19;
     Storage storage = Storage::double_precision;
     double max_mach = 0.2;  ///< a step that goes beyond it ends the run, > 0

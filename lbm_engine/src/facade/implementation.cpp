@@ -11,9 +11,20 @@
 namespace lbm {
 namespace {
 
+/// Lambda of two relaxation times.
 double magic_parameter(const FluidConfig& c)
 {
-    return std::isnan(c.magic_parameter) ? kLambdaLowNoise : c.magic_parameter;
+    if (!std::isnan(c.magic_parameter)) return c.magic_parameter;
+    return c.scheme == Scheme::exact ? kLambdaLowNoise : kLambdaPublished;
+}
+
+CollisionParameters collision_parameters(const FluidConfig& c, const Units& units)
+{
+    const double Lp = c.tau - 0.5;
+    const double lambda = c.collision == Collision::bgk ? Lp * Lp : magic_parameter(c);
+    CollisionParameters p{TrtRates(c.tau, lambda), {}, Weighting(magic_parameter(c)).low_noise, c.scheme};
+    for (int d = 0; d < 3; ++d) p.body_force[d] = c.acceleration[d] / units.acceleration;
+    return p;
 }
 
 std::array<FaceCondition, 6> lattice_faces(const FluidConfig& c, const Units& units)
@@ -92,12 +103,11 @@ Fluid::Implementation::Implementation(const FluidConfig& c)
     : config(validated(c))
     , dt(fluid_time_step(c.tau, c.dx, c.viscosity / c.density))
     , units(c.dx, dt, c.density)
-    , collision{TrtRates(c.tau, magic_parameter(c)), {}, Weighting(magic_parameter(c)).low_noise}
+    , collision(collision_parameters(c, units))
     , populations(make_populations(c))
     , faces(std::visit([&](const auto& f) { return Faces(f.layout, lattice_faces(c, units), c.inertia); }, populations))
-    , map(c.cells, periodic_axes(c), Weighting(magic_parameter(c)))
+    , map(c.cells, periodic_axes(c), Weighting(magic_parameter(c)), c.scheme == Scheme::bounce_back)
 {
-    for (int d = 0; d < 3; ++d) collision.body_force[d] = c.acceleration[d] / units.acceleration;
     start_at(mean_face_pressure(lattice_faces(c, units)));
 }
 
@@ -256,15 +266,16 @@ void Fluid::Implementation::change_tau(double tau)
         return all;
     };
     const auto before = momenta_inside();
-    CollisionParameters to{TrtRates(tau, magic_parameter(config)), {}, collision.low_noise};
-    for (int d = 0; d < 3; ++d) to.body_force[d] = s * s * collision.body_force[d];
+    const double new_dt = fluid_time_step(tau, config.dx, config.viscosity / config.density);
+    const Units new_units(config.dx, new_dt, config.density);
+    const CollisionParameters to = collision_parameters(changed, new_units);
     std::visit([&](auto& f) { rescale(f, collision, to, config.inertia, map); }, populations);
 
     time_before_dt = time();
     steps_before_dt = steps;
     config = changed;
-    dt = fluid_time_step(tau, config.dx, config.viscosity / config.density);
-    units = Units(config.dx, dt, config.density);
+    dt = new_dt;
+    units = new_units;
     collision = to;
     max_speed2 *= s * s;
     rebuild_faces(s * s);

@@ -86,6 +86,9 @@ void validate(const FluidConfig& c)
         throw ConfigError(message("tau = ", c.tau, ": must lie between ", kMinTau, " and ", kMaxTau,
                                   "; dt = (tau - 1/2) dx^2 / (3 nu)"));
     if (!std::isnan(c.magic_parameter)) require_positive("magic_parameter", c.magic_parameter, "-");
+    if (c.collision == Collision::bgk && !std::isnan(c.magic_parameter))
+        throw ConfigError(message("magic_parameter = ", c.magic_parameter,
+                                  ": with one relaxation time (bgk) it is (tau - 1/2)^2; leave it out or use trt"));
     require_positive("max_mach", c.max_mach, "-");
     require_finite("lower", c.lower, "m");
     require_finite("gravity", c.gravity, "m/s2");

@@ -23,11 +23,15 @@ struct RowSaturation {
         kEpsilonSum,
         kStrength,
         kUs,
-        kForce = kUs + 3,
+        kBounce = kUs + 3,  ///< 1 in cells of solids that turn populations round
+        kForce,
         kMomentum = kForce + 3,
         kWeight = kMomentum + 3,
         kColumns
     };
+
+    /// What stands in a block: no solid, solids, or also one that turns populations round (kBounce).
+    enum Cover : std::uint8_t { kFluid, kSolids, kWall };
 
     explicit RowSaturation(int nx)
         : stride(padded_to_blocks(nx) + kBlock)
@@ -40,7 +44,7 @@ struct RowSaturation {
 
     std::size_t stride;
     std::vector<double> values;
-    std::vector<std::uint8_t> covered;  ///< per block
+    std::vector<std::uint8_t> covered;  ///< per block: a Cover
 };
 
 }  // namespace lbm

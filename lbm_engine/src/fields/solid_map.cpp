@@ -18,10 +18,12 @@ int wrap(int i, int n)
 
 }  // namespace
 
-SolidMap::SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const Weighting& weighting)
+SolidMap::SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const Weighting& weighting,
+                   bool whole_cells)
     : n_(cells)
     , periodic_(periodic)
     , weighting_(weighting)
+    , whole_cells_(whole_cells)
     , row_begin_(static_cast<std::size_t>(cells[1]) * cells[2] + 1, 0)
 {
 }
@@ -161,7 +163,7 @@ template <int W>
 
 /// Where solids overlap the fractions fill the cell at most once; the mean velocity is weighted by them.
 LBM_EACH_ISA
-void normalise(RowSaturation& cells)
+void normalise(RowSaturation& cells, bool whole_cells)
 {
     using C = RowSaturation;
     for (std::size_t b = 0; b < cells.covered.size(); ++b) {
@@ -171,7 +173,8 @@ void normalise(RowSaturation& cells)
         const Pack<kBlock> one = Pack<kBlock>{} + 1.0;
         const Pack<kBlock> inverse = one / (sum > 0 ? sum : one);
         const Pack<kBlock> epsilon = sum < 1 ? sum : one;
-        store<kBlock>(column(C::kEpsilon), epsilon);
+        const Pack<kBlock> whole = epsilon >= 0.5 ? one : Pack<kBlock>{};
+        store<kBlock>(column(C::kEpsilon), whole_cells ? whole : epsilon);
         store<kBlock>(column(C::kStrength), load<kBlock>(column(C::kStrength)) * (epsilon * inverse));
         for (int d = 0; d < 3; ++d) store<kBlock>(column(C::kUs + d), load<kBlock>(column(C::kUs + d)) * inverse);
     }
@@ -259,16 +262,16 @@ void SolidMap::saturate(std::size_t row, RowSaturation& cells) const
         const int x0 = wrap(span.x0, n_[0]);
         if (x0 + span.n <= n_[0]) {
             add_solid<kBlock>(cells, x0, span.n, eps, solid.k, rx, v);
-            for (int b = x0 / kBlock; b <= (x0 + span.n - 1) / kBlock; ++b) cells.covered[b] = 1;
+            for (int b = x0 / kBlock; b <= (x0 + span.n - 1) / kBlock; ++b) cells.covered[b] = RowSaturation::kSolids;
         } else {
             for (int i = 0; i < span.n; ++i) {
                 const int x = wrap(span.x0 + i, n_[0]);
                 add_solid<1>(cells, x, 1, eps + i, solid.k, rx + i, v);
-                cells.covered[x / kBlock] = 1;
+                cells.covered[x / kBlock] = RowSaturation::kSolids;
             }
         }
     }
-    normalise(cells);
+    normalise(cells, whole_cells_);
 }
 
 LBM_EACH_ISA

@@ -3,6 +3,7 @@
 #include "fields/populations.hpp"
 #include "fields/solid_map.hpp"
 #include "fields/sweep_row.hpp"
+#include "physics/comparison_schemes.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -49,8 +50,9 @@ void read_row(const Populations<L, T>& populations, const CollisionParameters& p
         using C = RowSaturation;
         const Saturation<double> s{in(C::kEpsilon), in(C::kStrength), {in(C::kUs), in(C::kUs + 1), in(C::kUs + 2)}};
         Exchange<double> answer;
-        if (inertia) collide_saturated<L, true>(f, p, s, answer);
-        else collide_saturated<L, false>(f, p, s, answer);
+        const double bounce = in(C::kBounce);
+        if (inertia) collide_beside_wall<L, true>(f, p, s, bounce, answer);
+        else collide_beside_wall<L, false>(f, p, s, bounce, answer);
         const double rho = inertia ? 1 + before.drho : 1;
         cell.epsilon = s.epsilon;
         cell.drho = before.drho;

@@ -3,6 +3,7 @@
 
 #include "fields/pack.hpp"
 #include "fields/sweep_row.hpp"
+#include "physics/comparison_schemes.hpp"
 
 namespace lbm::LBM_ISA {
 namespace {
@@ -62,7 +63,9 @@ template <class L, bool inertia, int W, class T>
     const Saturation<Pack<W>> saturation{
         read(C::kEpsilon), read(C::kStrength), {read(C::kUs), read(C::kUs + 1), read(C::kUs + 2)}};
     Exchange<Pack<W>> answer;
-    watch.see(collide_saturated<L, inertia>(f, parameters, saturation, answer));
+    if (cells.covered[x / kBlock] == C::kWall)
+        watch.see(collide_beside_wall<L, inertia>(f, parameters, saturation, read(C::kBounce), answer));
+    else watch.see(collide_with_solids<L, inertia>(f, parameters, saturation, answer));
     for (int d = 0; d < 3; ++d) {
         write(C::kForce + d, answer.force[d]);
         write(C::kMomentum + d, answer.momentum[d]);

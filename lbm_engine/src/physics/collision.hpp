@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lbm/fluid_config.hpp"
 #include "physics/rates.hpp"
 
 #include <utility>
@@ -14,6 +15,7 @@ struct CollisionParameters {
     TrtRates rates;
     double body_force[3];  ///< F = rho_0 * acceleration
     bool low_noise;        ///< parameter set of the weighting
+    Scheme scheme = Scheme::exact;
 };
 
 template <class V>

@@ -25,6 +25,8 @@ struct TrtRates {
 
 /// The magic parameter of the low-noise parameter set (LN).
 inline constexpr double kLambdaLowNoise = 0.125;
+/// The one that the literature uses most, for its own schemes: half-way walls in a channel are exact.
+inline constexpr double kLambdaPublished = 3.0 / 16;
 
 /// The fluid fraction that the weight of a cell sees is at least this. A full cell then is a solid with a permeability of (1/450) dx^2: no
 /// flow to speak of, but its pressure settles in some hundred steps per unit of tau, where at 0 it would be frozen.
