@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -149,14 +150,35 @@ Scheme read_scheme(Section& root)
     return Scheme::exact;
 }
 
+void read_shape(Section& s, Solid& solid)
+{
+    const std::string shape = s.choice("shape", "sphere", {"sphere", "box", "pipe"});
+    if (shape == "box") {
+        solid.shape = Shape::box;
+        solid.half_extents = s.vector("half_extents");
+        if (!s.has("orientation")) return;
+        const Json& q = s.at("orientation");
+        if (!q.is_array() || q.size() != 4 ||
+            !std::all_of(q.begin(), q.end(), [](const Json& n) { return n.is_number(); }))
+            throw ConfigError(s.name("orientation") +
+                              ": must be a list of four numbers, the unit quaternion (w, x, y, z)");
+        for (int i = 0; i < 4; ++i) solid.orientation[i] = q[i].get<double>();
+        return;
+    }
+    solid.radius = s.number("radius");
+    if (shape == "pipe") {
+        solid.shape = Shape::pipe;
+        solid.axis = s.choice("axis", "x", {"x", "y", "z"})[0] - 'x';
+    }
+}
+
 CaseSolid read_solid(Section s, std::int64_t id)
 {
     CaseSolid entry;
-    s.choice("shape", "sphere", {"sphere"});
     Solid& solid = entry.solid;
     solid.id = id;
     solid.position = s.vector("center");
-    solid.radius = s.number("radius");
+    read_shape(s, solid);
     solid.velocity = s.vector("velocity", {});
     solid.angular_velocity = s.vector("angular_velocity", {});
     entry.moving = s.flag("moving", false);
@@ -164,6 +186,7 @@ CaseSolid read_solid(Section s, std::int64_t id)
     if (entry.free && entry.moving)
         throw ConfigError(s.name("free") + ": a solid is free or moving at its velocity, not both");
     if (entry.free) {
+        if (solid.shape != Shape::sphere) throw ConfigError(s.name("free") + ": only a sphere can be free");
         const double density = s.number("density");
         if (!(std::isfinite(density) && density > 0))
             throw ConfigError(s.name("density") + ": must be finite and > 0 [kg/m3]");

@@ -110,7 +110,7 @@ CaseResult run_case(const Case& input, const std::function<void(const Progress&)
 
     const auto snapshot = [&] { return Snapshot{fluid.average_velocity(), fluid.loads()}; };
     std::vector<double> radius;
-    for (const Solid& s : motion.solids()) radius.push_back(s.radius);
+    for (const Solid& s : motion.solids()) radius.push_back(s.shape == Shape::box ? size(s.half_extents) : s.radius);
     Snapshot before = snapshot();
     double latest_change = std::numeric_limits<double>::infinity();
     bool converged = false;

@@ -3,6 +3,7 @@
 #include "lattice/d3q19.hpp"
 #include "lattice/vec3.hpp"
 #include "lbm/fluid_config.hpp"
+#include "physics/rates.hpp"
 #include "physics/sphere_fraction.hpp"
 
 #include <algorithm>
@@ -107,7 +108,7 @@ private:
             const Vec3 &W = solid.angular_velocity, &r = share.r;
             const Vec3 spin{W[1] * r[2] - W[2] * r[1], W[2] * r[0] - W[0] * r[2], W[0] * r[1] - W[1] * r[0]};
             const double R = solid.radius;
-            const double k = Lambda_ == 0.125 ? 2.04 + 4.7 / R : 1.93 + 9.05 * Lambda_ + (1.9 + 17 * Lambda_) / R;
+            const double k = Weighting(L::Q == 19 ? Lattice::d3q19 : Lattice::d3q27, Lambda_).k(R);
             sum += share.epsilon;
             k_eps += k * share.epsilon;
             u_s += share.epsilon * (solid.velocity + spin);

@@ -23,7 +23,7 @@ void lopsided(Populations& f)
 
 CollisionParameters parameters(double tau, double lambda)
 {
-    return {TrtRates(tau, lambda), {1e-5, -2e-5, 3e-5}, Weighting(lambda).low_noise};
+    return {TrtRates(tau, lambda), {1e-5, -2e-5, 3e-5}, Weighting(Lattice::d3q19, lambda).low_noise};
 }
 
 class Collision : public CppUnit::TestFixture {

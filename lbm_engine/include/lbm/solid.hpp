@@ -9,8 +9,14 @@ namespace lbm {
 using Vec3 = std::array<double, 3>;
 using Mat3 = std::array<Vec3, 3>;
 
+enum class Shape {
+    sphere,  ///< of `radius`
+    box,     ///< of `half_extents`, turned by `orientation`
+    pipe     ///< everything outside an endless bore of `radius` along `axis`
+};
+
 /**
- * A rigid sphere in the fluid, as the caller knows it at the start of a fluid step. SI units.
+ * A rigid solid in the fluid, as the caller knows it at the start of a fluid step. SI units.
  *
  * A finite `mass` (with its `inertia`) says that the solid answers to its load: the load is then passed on with the
  * relaxation that keeps light particles stable. Infinite values say that the motion is prescribed (or none).
@@ -19,10 +25,15 @@ struct Solid {
     std::int64_t id = 0;  ///< the caller's key; unique among the solids of one fluid
     std::int64_t body =
         -1;  ///< solids with the same number >= 0 move as one rigid body: where they overlap, their common volume counts once
-    double radius = 0;        ///< [m], at least two cells
-    Vec3 position{};          ///< of the centre [m]; need not be wrapped in periodic directions
-    Vec3 velocity{};          ///< of the centre [m/s]
-    Vec3 angular_velocity{};  ///< [rad/s]
+    Shape shape = Shape::sphere;
+    double radius = 0;    ///< of a sphere or bore [m], at least two cells
+    Vec3 half_extents{};  ///< of a box along its own axes [m], each at least one cell
+    std::array<double, 4> orientation{1, 0, 0,
+                                      0};  ///< of a box: the unit quaternion (w, x, y, z) that turns it from the axes
+    int axis = 0;                          ///< of a pipe: 0, 1, 2 for x, y, z
+    Vec3 position{};                       ///< of the centre [m]; need not be wrapped in periodic directions
+    Vec3 velocity{};                       ///< of the centre [m/s]
+    Vec3 angular_velocity{};               ///< [rad/s]
     double mass = std::numeric_limits<double>::infinity();     ///< [kg], > 0
     double inertia = std::numeric_limits<double>::infinity();  ///< moment about the centre [kg m2], > 0
 };

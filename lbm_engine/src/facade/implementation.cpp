@@ -22,7 +22,7 @@ CollisionParameters collision_parameters(const FluidConfig& c, const Units& unit
 {
     const double Lp = c.tau - 0.5;
     const double lambda = c.collision == Collision::bgk ? Lp * Lp : magic_parameter(c);
-    CollisionParameters p{TrtRates(c.tau, lambda), {}, Weighting(magic_parameter(c)).low_noise, c.scheme};
+    CollisionParameters p{TrtRates(c.tau, lambda), {}, Weighting(c.lattice, magic_parameter(c)).low_noise, c.scheme};
     for (int d = 0; d < 3; ++d) p.body_force[d] = c.acceleration[d] / units.acceleration;
     return p;
 }
@@ -82,6 +82,15 @@ AnyPopulations make_populations(const FluidConfig& c)
     }
 }
 
+/// The axes of a box turned by a unit quaternion (w, x, y, z).
+Mat3 rotated_axes(const std::array<double, 4>& q)
+{
+    const auto [w, x, y, z] = q;
+    return {{{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+             {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+             {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}}};
+}
+
 class Stopwatch {
 public:
     /// Seconds since construction or the last lap.
@@ -106,7 +115,7 @@ Fluid::Implementation::Implementation(const FluidConfig& c)
     , collision(collision_parameters(c, units))
     , populations(make_populations(c))
     , faces(std::visit([&](const auto& f) { return Faces(f.layout, lattice_faces(c, units), c.inertia); }, populations))
-    , map(c.cells, periodic_axes(c), Weighting(magic_parameter(c)), c.scheme == Scheme::bounce_back)
+    , map(c.cells, periodic_axes(c), Weighting(c.lattice, magic_parameter(c)), c.scheme == Scheme::bounce_back)
 {
     start_at(mean_face_pressure(lattice_faces(c, units)));
 }
@@ -129,19 +138,26 @@ void Fluid::Implementation::start_at(double drho)
         populations);
 }
 
-LatticeSphere Fluid::Implementation::in_lattice_units(const Solid& solid) const
+LatticeSolid Fluid::Implementation::in_lattice_units(const Solid& solid) const
 {
-    LatticeSphere sphere;
-    sphere.radius = solid.radius / units.length;
-    sphere.velocity = (1 / units.velocity) * solid.velocity;
-    sphere.angular_velocity = units.time * solid.angular_velocity;
+    LatticeSolid lattice;
+    SolidGeometry& geometry = lattice.geometry;
+    geometry.shape = solid.shape;
+    geometry.radius = solid.radius / units.length;
+    geometry.half_extents = (1 / units.length) * solid.half_extents;
+    geometry.axes = rotated_axes(solid.orientation);
+    geometry.axis = solid.axis;
+    lattice.body = solid.body;
+    lattice.velocity = (1 / units.velocity) * solid.velocity;
+    lattice.angular_velocity = units.time * solid.angular_velocity;
     for (int d = 0; d < 3; ++d) {
         double x = (solid.position[d] - config.lower[d]) / units.length;
         if (config.faces[2 * d].type == FaceType::periodic) x -= config.cells[d] * std::floor(x / config.cells[d]);
         // Beyond the reach of the lattice nothing is mapped; the distance itself must stay countable.
-        sphere.centre[d] = std::clamp(x, -1e6 - sphere.radius, 1e6 + config.cells[d] + sphere.radius);
+        const double reach = 1e6 + geometry.radius + norm(geometry.half_extents);
+        geometry.centre[d] = std::clamp(x, -reach, config.cells[d] + reach);
     }
-    return sphere;
+    return lattice;
 }
 
 /**
@@ -166,7 +182,10 @@ bool Fluid::Implementation::is_same(const Solid& now, const Solid& before) const
         if (config.faces[2 * d].type == FaceType::periodic) moved -= length * std::round(moved / length);
         distance2 += moved * moved;
     }
-    return now.id == before.id && now.radius == before.radius && distance2 <= now.radius * now.radius;
+    const auto& h = now.half_extents;
+    const double jump = now.shape == Shape::box ? std::min({h[0], h[1], h[2]}) : now.radius;
+    return now.id == before.id && now.shape == before.shape && now.radius == before.radius &&
+           now.half_extents == before.half_extents && now.axis == before.axis && distance2 <= jump * jump;
 }
 
 void Fluid::Implementation::place(const std::vector<Solid>& now)
@@ -191,11 +210,11 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
         previous[s] = known ? found->second : -1;
         any_new = any_new || !known;
     }
-    std::vector<LatticeSphere> spheres(now.size());
+    std::vector<LatticeSolid> lattice_solids(now.size());
 #pragma omp parallel for schedule(static) if (count > 256)
     for (std::ptrdiff_t s = 0; s < count; ++s)
-        spheres[s] = in_lattice_units(previous[s] < 0 ? now[s] : in_mid_step(now[s], last_motions[previous[s]]));
-    map.update(spheres, previous);
+        lattice_solids[s] = in_lattice_units(previous[s] < 0 ? now[s] : in_mid_step(now[s], last_motions[previous[s]]));
+    map.update(lattice_solids, previous);
     if (!same_ids) {
         std::vector<LoadLedger> kept(now.size());
         std::vector<Motion> motions(now.size());

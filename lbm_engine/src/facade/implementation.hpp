@@ -72,7 +72,7 @@ struct Fluid::Implementation {
     SolidLoad load_in_si(std::size_t s, const LoadLedger::Load& load, const SolidSums& sums) const;
     void watch(const SpeedWatch& speeds) const;
     void watch_surfaces() const;
-    LatticeSphere in_lattice_units(const Solid& solid) const;
+    LatticeSolid in_lattice_units(const Solid& solid) const;
     Solid in_mid_step(const Solid& solid, const Motion& last) const;
 
     template <class Body>

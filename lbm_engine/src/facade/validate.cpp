@@ -4,6 +4,8 @@
 #include "lattice/units.hpp"
 #include "lattice/vec3.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <unordered_set>
 
 namespace lbm {
@@ -104,24 +106,70 @@ void validate(const FluidConfig& c)
     validate_inflow(c);
 }
 
+namespace {
+
+using Fail = std::function<void(const std::string&)>;
+
+void validate_sphere(const FluidConfig& c, const Solid& s, const Fail& fail)
+{
+    for (int d = 0; d < 3; ++d)
+        if (2 * s.radius > c.cells[d] * c.dx * (1 + 1e-9))
+            fail(message("diameter = ", 2 * s.radius, " m: larger than the box along ", kAxis[d], ", ",
+                         c.cells[d] * c.dx, " m"));
+}
+
+void validate_pipe(const FluidConfig& c, const Solid& s, const Fail& fail)
+{
+    if (s.axis < 0 || s.axis > 2) fail(message("axis = ", s.axis, ": must be 0, 1 or 2 for x, y, z"));
+    if (s.body >= 0) fail("a pipe cannot be part of a rigid body");
+    for (int d = 0; d < 3; ++d) {
+        if (d == s.axis) continue;
+        const double below = s.position[d] - s.radius - c.lower[d];
+        const double above = c.lower[d] + c.cells[d] * c.dx - s.position[d] - s.radius;
+        if (!(std::min(below, above) >= -1e-9 * c.dx))
+            fail(message("the bore of radius ", s.radius, " m around ", s.position[d], " m along ", kAxis[d],
+                         " does not fit into the box"));
+    }
+}
+
+void validate_box(const FluidConfig& c, const Solid& s, const Fail& fail)
+{
+    double norm2 = 0;
+    for (const double q : s.orientation) norm2 += q * q;
+    if (!(std::abs(norm2 - 1) < 1e-6)) fail("orientation: must be a unit quaternion (w, x, y, z)");
+    for (int a = 0; a < 3; ++a) {
+        const double h = s.half_extents[a];
+        if (!(std::isfinite(h) && h > 0)) fail(message("half extent = ", h, ": must be finite and > 0 [m]"));
+        if (h < kMinHalfExtentInCells * c.dx * (1 - 1e-9))
+            fail(message("half extent = ", h, " m is ", h / c.dx,
+                         " cells: a box must be at least two cells thick; use dx <= ", h / kMinHalfExtentInCells,
+                         " m"));
+    }
+}
+
+}  // namespace
+
 void validate(const FluidConfig& c, const std::vector<Solid>& solids)
 {
     for (const Solid& s : solids) {
-        const auto fail = [&](const auto&... part) { throw ConfigError(message("solid ", s.id, ": ", part...)); };
-        if (!(std::isfinite(s.radius) && s.radius > 0)) fail("radius = ", s.radius, ": must be finite and > 0 [m]");
-        if (s.radius < kMinRadiusInCells * c.dx * (1 - 1e-9))
-            fail("radius = ", s.radius, " m is ", s.radius / c.dx, " cells: must be at least ", kMinRadiusInCells,
-                 " cells; use dx <= ", s.radius / kMinRadiusInCells, " m");
-        for (int d = 0; d < 3; ++d)
-            if (2 * s.radius > c.cells[d] * c.dx * (1 + 1e-9))
-                fail("diameter = ", 2 * s.radius, " m: larger than the box along ", kAxis[d], ", ", c.cells[d] * c.dx,
-                     " m");
+        const Fail fail = [&](const std::string& what) { throw ConfigError(message("solid ", s.id, ": ", what)); };
         if (!is_finite(s.position)) fail("position is not finite");
         if (!is_finite(s.velocity)) fail("velocity is not finite");
         if (!is_finite(s.angular_velocity)) fail("angular velocity is not finite");
-        if (!(s.mass > 0)) fail("mass = ", s.mass, ": must be > 0 [kg]; infinity for a prescribed motion");
+        if (!(s.mass > 0)) fail(message("mass = ", s.mass, ": must be > 0 [kg]; infinity for a prescribed motion"));
         if (!(s.inertia > 0))
-            fail("moment of inertia = ", s.inertia, ": must be > 0 [kg m2]; infinity for a prescribed motion");
+            fail(message("moment of inertia = ", s.inertia, ": must be > 0 [kg m2]; infinity for a prescribed motion"));
+        if (s.shape == Shape::box) {
+            validate_box(c, s, fail);
+            continue;
+        }
+        if (!(std::isfinite(s.radius) && s.radius > 0))
+            fail(message("radius = ", s.radius, ": must be finite and > 0 [m]"));
+        if (s.radius < kMinRadiusInCells * c.dx * (1 - 1e-9))
+            fail(message("radius = ", s.radius, " m is ", s.radius / c.dx, " cells: must be at least ",
+                         kMinRadiusInCells, " cells; use dx <= ", s.radius / kMinRadiusInCells, " m"));
+        if (s.shape == Shape::sphere) validate_sphere(c, s, fail);
+        else validate_pipe(c, s, fail);
     }
 }
 

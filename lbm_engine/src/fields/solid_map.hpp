@@ -3,17 +3,17 @@
 #include "fields/row_saturation.hpp"
 #include "lattice/vec3.hpp"
 #include "physics/rates.hpp"
-#include "physics/sphere_fraction.hpp"
+#include "physics/solid_fraction.hpp"
 
 #include <cstdint>
 #include <vector>
 
 namespace lbm {
 
-/// A sphere in lattice units, its centre wrapped into the box in periodic directions.
-struct LatticeSphere {
-    double radius = 0;
-    Vec3 centre{};  ///< cell i reaches from i to i + 1
+/// A solid in lattice units.
+struct LatticeSolid {
+    SolidGeometry geometry;
+    std::int64_t body = -1;
     Vec3 velocity{}, angular_velocity{};
 };
 
@@ -37,7 +37,7 @@ struct SolidSums {
  * Which cells the solids cover, and how much: for every solid the spans of its rows with exact fractions, and for every
  * row of the lattice the spans that lie in it.
  *
- * Only solids that moved are evaluated again. Sums are kept per span and added up span by span, so that the result does not depend on
+ * Only solids that moved are evaluated again, and those of their body that overlap may. Sums are kept per span and added up span by span, so that the result does not depend on
  * which thread swept which row.
  */
 class SolidMap {
@@ -50,14 +50,15 @@ public:
              bool whole_cells);
 
     std::size_t size() const noexcept { return solids_.size(); }
-    const LatticeSphere& sphere(std::size_t s) const noexcept { return solids_[s].sphere; }
-    double volume(std::size_t s) const noexcept { return solids_[s].volume; }  ///< inside the box
+    const LatticeSolid& solid(std::size_t s) const noexcept { return solids_[s].solid; }
+    /// Inside the lattice; what a solid shares with earlier ones of its body is theirs.
+    double volume(std::size_t s) const noexcept { return solids_[s].volume; }
 
     /**
      * The solids that are there now.
      * @param previous  for each of them its index in the map as it stands, or -1
      */
-    void update(const std::vector<LatticeSphere>& spheres, const std::vector<int>& previous);
+    void update(const std::vector<LatticeSolid>& solids, const std::vector<int>& previous);
 
     /// The time step becomes s times what it was: so do velocities in lattice units.
     void scale_velocities(double s) noexcept;
@@ -83,18 +84,24 @@ private:
         std::uint32_t fractions;  // offset; padded with zeros to whole blocks
     };
     struct MappedSolid {
-        LatticeSphere sphere;
+        LatticeSolid solid;
         double k = 0, volume = 0;
         int y0 = 0, ny = 0, z0 = 0, nz = 0;  // rows, not wrapped
         std::vector<Span> spans;             // ny * nz
         std::vector<double> fractions;
+        bool whole_cells = false;
+        std::vector<std::uint8_t> bounce;  // of a box along the lattice: whether a cell turns populations round
         std::vector<SpanSums> sums;
     };
     struct RowEntry {
         std::int32_t solid, span;
     };
 
-    void map(MappedSolid& solid, SphereFraction& fraction) const;
+    std::vector<std::vector<int>> earlier_of_body(const std::vector<LatticeSolid>& solids) const;
+    double k(const SolidGeometry& geometry) const;
+    void mark_walls();
+    bool is_wall_cell(std::size_t s, const std::array<int, 3>& cell) const;
+    void map(MappedSolid& solid, SolidFraction& fraction, const std::vector<SolidGeometry>& others) const;
     void list_rows();
     /// Whether a row or plane, not wrapped, is part of the box.
     bool is_inside(int i, int axis) const noexcept { return periodic_[axis] || (i >= 0 && i < n_[axis]); }

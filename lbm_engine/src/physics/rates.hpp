@@ -1,5 +1,7 @@
 #pragma once
 
+#include "lbm/fluid_config.hpp"
+
 namespace lbm {
 
 /**
@@ -35,28 +37,32 @@ inline constexpr double kLeastFluidFraction = 0.02;
 /**
  * The weighting of partially saturated cells: two parameter sets, both exact in tau.
  *
- *     LN  (lambda = 1/8)   lam(eps) = (1 - eps) / (1 + 3 eps) + eps / 20,   k = 2.04 + 4.7 / R
- *     R   (any lambda)     lam(eps) = 1,                                    k = 1.93 + 9.05 lambda + (1.9 + 17 lambda) / R
+ *     LN  (lambda = 1/8)   lam(eps) = (1 - eps) / (1 + 3 eps) + eps / 20
+ *                          D3Q19  k = 2.04 + 4.7 / R                                 D3Q27  k = 1.87 + 5.09 / R
+ *     R   (any lambda)     lam(eps) = 1
+ *                          D3Q19  k = 1.93 + 9.05 lambda + (1.9 + 17 lambda) / R     D3Q27  k = 1.64 + 11.7 lambda + (2.5 + 14.1 lambda) / R
  *
- * lam scales Lm in a cut cell; k is the strength of the solid force for a surface of radius of curvature R cells.
- * Fitted for D3Q19 with exact solid fractions; docs/physics.md has the derivation and the measurements.
+ * lam scales Lm in a cut cell; k is the strength of the solid force for a sphere of R cells; R is infinite for other surfaces.
+ * Fitted with exact solid fractions on the drag of a simple cubic array; docs/physics.md has the derivation and the measurements.
  */
 struct Weighting {
     bool low_noise;
     double k_flat, k_curved;
 
-    constexpr explicit Weighting(double lambda)
-        : low_noise(lambda == kLambdaLowNoise)
-        , k_flat(low_noise ? 2.04 : 1.93 + 9.05 * lambda)
-        , k_curved(low_noise ? 4.7 : 1.9 + 17 * lambda)
+    constexpr Weighting(Lattice lattice, double lambda) : low_noise(lambda == kLambdaLowNoise)
     {
+        const bool d3q19 = lattice == Lattice::d3q19;
+        if (low_noise) {
+            k_flat = d3q19 ? 2.04 : 1.87;
+            k_curved = d3q19 ? 4.7 : 5.09;
+        } else {
+            k_flat = d3q19 ? 1.93 + 9.05 * lambda : 1.64 + 11.7 * lambda;
+            k_curved = d3q19 ? 1.9 + 17 * lambda : 2.5 + 14.1 * lambda;
+        }
     }
 
-    /// @param radius_of_curvature  [cells], > 0; infinity for a flat surface
-    [[nodiscard]] constexpr double k(double radius_of_curvature) const
-    {
-        return k_flat + k_curved / radius_of_curvature;
-    }
+    /// @param radius  of the sphere [cells]; infinity for other surfaces
+    [[nodiscard]] constexpr double k(double radius) const { return k_flat + k_curved / radius; }
 };
 
 }  // namespace lbm

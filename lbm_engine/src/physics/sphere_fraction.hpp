@@ -29,7 +29,8 @@ public:
 
     const std::array<int, 3>& first() const noexcept { return first_; }  ///< lowest cell of the bounding box
     const std::array<int, 3>& count() const noexcept { return count_; }  ///< its cells
-    const double* row(int j, int k) const noexcept;  ///< fractions of count()[0] cells in row (j, k)
+    const double* row(int j, int k) const noexcept;      ///< fractions of count()[0] cells in row (j, k)
+    std::size_t line() const noexcept { return line_; }  ///< between rows
 
 private:
     std::array<int, 3> first_{}, count_{};
