@@ -42,18 +42,44 @@ def choices_that_are_not_supported_are_refused():
 def faces_must_make_sense():
     six = ["noSlip"] * 6
     refused_at_construction("boundary = list of 5: must have six names", boundary=six[:5])
-    refused_at_construction("boundary[xmin] = 'wall': must be 'periodic' or 'noSlip'", boundary=["wall"] + six[1:])
+    refused_at_construction("boundary[xmin] = 'wall': must be 'periodic', 'noSlip', 'freeSlip'", boundary=["wall"] + six[1:])
     refused_at_construction("boundary[zmin] = 'noSlip': the opposite face is 'periodic'", boundary=six[:5] + ["periodic"])
     refused_at_construction("boundaryVelocity = list of 1", boundaryVelocity=[(0, 0, 0)])
     refused_at_construction(
-        "boundaryVelocity[ymin] = (0, 1, 0): a wall moves in its own plane",
+        "boundaryVelocity[ymin] = (0, 1, 0): a noSlip wall moves in its own plane",
         boundaryVelocity=[(0, 0, 0)] * 2 + [(0, 1, 0)] + [(0, 0, 0)] * 3,
     )
     refused_at_construction(
-        "boundaryVelocity[ymin] = (1, 0, 0): a periodic face has no velocity",
+        "boundaryVelocity[ymin] = (1, 0, 0): periodic faces have no velocity",
         boundary=PERIODIC,
         boundaryVelocity=[(0, 0, 0)] * 2 + [(1, 0, 0)] + [(0, 0, 0)] * 3,
     )
+
+
+def velocities_and_pressures_stand_at_faces_that_have_them():
+    still, zero = [(0, 0, 0)] * 6, [0] * 6
+    open_box = ["velocity", "pressure"] + ["freeSlip"] * 4
+    refused_at_construction("boundaryPressure = list of 5: must have six numbers", boundaryPressure=zero[:5])
+    refused_at_construction(
+        "boundaryPressure[zmax] = 3: freeSlip faces have no pressure", boundary=open_box, boundaryPressure=zero[:5] + [3]
+    )
+    refused_at_construction("boundaryPressure[xmax] = nan: must be finite", boundary=open_box, boundaryPressure=[0, NAN] + zero[:4])
+    refused_at_construction(
+        "boundaryVelocity[xmax] = (1, 0, 0): pressure faces have no velocity",
+        boundary=open_box,
+        boundaryVelocity=[(0, 0, 0), (1, 0, 0)] + still[:4],
+    )
+    check_raises(TypeError, "LbmEngine.boundaryPressure = 3: must be a list", lambda: box((12, 12, 12), boundaryPressure=3))
+
+
+def an_inflow_without_a_way_out_is_refused():
+    fluid = one_sphere(boundary=["velocity"] + ["noSlip"] * 5, boundaryVelocity=[(1e-3, 0, 0)] + [(0, 0, 0)] * 5)
+    refused_by_plan_and_run("more in than out: make the velocities balance, or one of the faces a pressure face", fluid)
+
+
+def a_pressure_that_the_lattice_cannot_hold_is_refused():
+    fluid = one_sphere(boundary=["noSlip"] * 5 + ["pressure"], boundaryPressure=[0] * 5 + [1e6], tau=1.5)
+    refused_by_plan_and_run("pressure of face zmax = 1000000 Pa: changes the density by", fluid)
 
 
 def other_kinds_and_names_are_refused():
@@ -194,16 +220,19 @@ def attributes_are_fixed_once_the_fluid_exists():
     for name, value in dict(dx=2e-3, upper=(1, 1, 1), gravity=(0, 0, -1), tau=1.0, maxMach=0.1).items():
         check_raises(RuntimeError, "LbmEngine.%s cannot be changed any more" % name, lambda: setattr(fluid, name, value))
     fluid.mask, fluid.ids, fluid.label = 1, [0], "still"
+    check_raises(ValueError, "a noSlip wall moves in its own plane", lambda: setattr(fluid, "boundaryVelocity", [(1, 0, 0)] + [(0, 0, 0)] * 5))
+    check_raises(ValueError, "noSlip faces have no pressure", lambda: setattr(fluid, "boundaryPressure", [1] + [0] * 5))
     fluid.ids = [77]
     check_raises(RuntimeError, "LbmEngine.ids: body 77 does not exist", lambda: O.run(500, True))
 
 
 def queries_need_a_fluid():
     fluid = one_sphere()
-    for ask in (fluid.totalMass, fluid.averageVelocity, lambda: fluid.fluidForce(0), lambda: fluid.velocity):
+    for ask in (fluid.totalMass, lambda: fluid.getBoundaryFlux(0), lambda: fluid.getBoundaryForce(0), fluid.averageVelocity, lambda: fluid.fluidForce(0), lambda: fluid.velocity):
         check_raises(RuntimeError, "there is no fluid yet", ask)
     O.run(3, True)
     check_raises(ValueError, "body 5 was not in the fluid", lambda: fluid.fluidForce(5))
+    check_raises(ValueError, "getBoundaryFlux(6): must be 0 to 5", lambda: fluid.getBoundaryFlux(6))
     check_raises(ValueError, "", lambda: fluid.getVelocity((1, 1, 1)))
     check_raises(RuntimeError, "", lambda: fluid.saveVtk("/no/such/folder/file.vti"))
 
@@ -242,6 +271,9 @@ prove(
     the_box_is_a_whole_number_of_cells,
     choices_that_are_not_supported_are_refused,
     faces_must_make_sense,
+    velocities_and_pressures_stand_at_faces_that_have_them,
+    an_inflow_without_a_way_out_is_refused,
+    a_pressure_that_the_lattice_cannot_hold_is_refused,
     other_kinds_and_names_are_refused,
     missing_values_are_named,
     a_fluid_without_spheres_is_refused,

@@ -38,14 +38,22 @@ const std::vector<Attribute>& attributes()
                           "gravity. The hydrostatic pressure is left out of the fields. Use the integrator's value."),
         YADELBM_ATTRIBUTE("acceleration", acceleration, false,
                           "Uniform drive [m/s2], default 0: a mean pressure gradient of -density acceleration."),
-        YADELBM_ATTRIBUTE("boundary", boundary, false,
-                          "What the faces xmin, xmax, ymin, ymax, zmin, zmax of the box are: six of 'periodic' (both "
-                          "faces of a pair) and 'noSlip', default 'noSlip'. These are the walls of the fluid: boxes, "
-                          "walls and facets of the scene are not seen by it."),
         YADELBM_ATTRIBUTE(
-            "boundaryVelocity", boundary_velocity, false,
-            "Velocities of the six faces [m/s], default 0: a noSlip face with one is a wall that moves in "
-            "its own plane."),
+            "boundary", boundary, false,
+            "What the faces xmin, xmax, ymin, ymax, zmin, zmax of the box are: six of 'periodic' (both "
+            "faces of a pair), 'noSlip', 'freeSlip' (no friction, a plane of symmetry), 'velocity' "
+            "(fluid enters or leaves with boundaryVelocity) and 'pressure' (it enters or leaves along the "
+            "normal at boundaryPressure); default 'noSlip'. These are the walls of the fluid: boxes, "
+            "walls and facets of the scene are not seen by it."),
+        YADELBM_ATTRIBUTE(
+            "boundaryVelocity", boundary_velocity, true,
+            "Velocities of the six faces [m/s], default 0: of a velocity face, in any direction; a noSlip face with "
+            "one is a wall that moves in its own plane. May be changed at any time."),
+        YADELBM_ATTRIBUTE(
+            "boundaryPressure", boundary_pressure, true,
+            "Pressures of the six faces [Pa], default 0, where they are pressure faces: in excess of "
+            "hydrostatic and drive, as getPorePressure gives them. Of fluid that enters, the pressure where "
+            "it was at rest. May be changed at any time."),
         YADELBM_ATTRIBUTE("tau", tau, false,
                           "Relaxation time [fluid steps], sets the fluid's time step (tau - 1/2) dx^2 density / (3 "
                           "viscosity). NaN, the default: chosen so that this is a whole number of steps of O.dt where "

@@ -87,6 +87,11 @@ void from_python(const char* name, const bp::object& value, std::vector<int>& re
     from_sequence(name, value, "a list of whole numbers", result);
 }
 
+void from_python(const char* name, const bp::object& value, std::vector<double>& result)
+{
+    from_sequence(name, value, "a list of numbers", result);
+}
+
 void from_python(const char* name, const bp::object& value, std::vector<std::string>& result)
 {
     from_sequence(name, value, "a list of strings", result);
@@ -116,6 +121,8 @@ bp::object to_python(const lbm::Mat3& m)
 }
 
 bp::object to_python(const std::vector<int>& values) { return to_list(values); }
+
+bp::object to_python(const std::vector<double>& values) { return to_list(values); }
 
 bp::object to_python(const std::vector<std::string>& values) { return to_list(values); }
 

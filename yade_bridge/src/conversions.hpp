@@ -18,6 +18,7 @@ void from_python(const char* name, const boost::python::object& value, bool& res
 void from_python(const char* name, const boost::python::object& value, std::string& result);
 void from_python(const char* name, const boost::python::object& value, lbm::Vec3& result);
 void from_python(const char* name, const boost::python::object& value, std::vector<int>& result);
+void from_python(const char* name, const boost::python::object& value, std::vector<double>& result);
 void from_python(const char* name, const boost::python::object& value, std::vector<std::string>& result);
 void from_python(const char* name, const boost::python::object& value, std::vector<lbm::Vec3>& result);
 ///@}
@@ -31,6 +32,7 @@ boost::python::object to_python(const std::string& value);
 boost::python::object to_python(const lbm::Vec3& v);
 boost::python::object to_python(const lbm::Mat3& m);
 boost::python::object to_python(const std::vector<int>& values);
+boost::python::object to_python(const std::vector<double>& values);
 boost::python::object to_python(const std::vector<std::string>& values);
 boost::python::object to_python(const std::vector<lbm::Vec3>& values);
 ///@}

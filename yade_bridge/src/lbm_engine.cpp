@@ -262,6 +262,7 @@ FluidPlan LbmEngine::plan() const
     request.throughput = throughput();
     request.contact_frequency = contact_frequency(now, solids);
     FluidPlan plan{lbm::plan_time_step(request), fluid_cells()};
+    lbm::Fluid::check(fluid_config(settings_, plan.tau, 0));
     for (const std::string& warning : scene_warnings(now, settings_)) {
         plan.warnings.push_back(warning);
         if (!plan.report.empty() && plan.report.back() != '\n') plan.report += '\n';

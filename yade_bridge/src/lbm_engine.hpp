@@ -65,6 +65,8 @@ public:
     double pressure_at(const lbm::Vec3& position) const;
     lbm::Vec3 average_velocity() const;
     double permeability() const;
+    double boundary_flux(int face) const;
+    lbm::Vec3 boundary_force(int face) const;
     double total_mass() const;
     lbm::Vec3 total_momentum() const;
     double kinetic_energy() const;

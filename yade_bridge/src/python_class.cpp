@@ -139,7 +139,19 @@ void define_queries(PythonClass& python_class)
             "averageVelocity", +[](const LbmEngine& e) { return to_python(e.average_velocity()); },
             "Superficial velocity: mean over all cells, solid ones included [m/s].")
         .def("permeability", &LbmEngine::permeability,
-             "Permeability for the uniform drive, nu U.a / |a|^2 [m2]; NaN without a drive.")
+             "Permeability for the drive, mu U.G / |G|^2 [m2], with G = density acceleration + the pressure drop per "
+             "length "
+             "between pressure faces that face each other; NaN without a drive.")
+        .def(
+            "getBoundaryFlux", &LbmEngine::boundary_flux,
+            "Volume of fluid per time that left the box through face i (0 to 5: xmin, xmax, ymin, ymax, zmin, zmax) in "
+            "the last fluid step, positive outwards; through a periodic face too [m3/s].")
+        .def(
+            "getBoundaryForce", +[](const LbmEngine& e, int face) { return to_python(e.boundary_force(face)); },
+            "Force of the fluid on face i in the last fluid step [N], from the momentum exchanged over its links: "
+            "viscous "
+            "stress, pressure in excess of hydrostatic and drive, and the momentum of what flows through. Zero for a "
+            "periodic face.")
         .def("totalMass", &LbmEngine::total_mass, "Mass of the lattice's fluid [kg].")
         .def(
             "totalMomentum", +[](const LbmEngine& e) { return to_python(e.total_momentum()); },
@@ -169,6 +181,11 @@ void LbmEngine::change_settings(const char* name, bool live, const std::function
                                  "LbmEngine, or set it before the first step");
     Settings changed = settings_;
     change(changed);
+    if (fluid_ && (changed.boundary_velocity != settings_.boundary_velocity ||
+                   changed.boundary_pressure != settings_.boundary_pressure)) {
+        check(changed, true);
+        fluid_->change_faces(face_conditions(changed));
+    }
     settings_ = changed;
     selection_changed_ = true;
 }

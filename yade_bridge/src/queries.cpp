@@ -54,6 +54,30 @@ double LbmEngine::permeability() const
     return fluid("permeability").permeability();
 }
 
+namespace {
+
+lbm::Face face_of(const char* asked, int face)
+{
+    if (face < 0 || face > 5)
+        throw std::invalid_argument(std::string("LbmEngine.") + asked + "(" + std::to_string(face) +
+                                    "): must be 0 to 5, for xmin, xmax, ymin, ymax, zmin, zmax");
+    return static_cast<lbm::Face>(face);
+}
+
+}  // namespace
+
+double LbmEngine::boundary_flux(int face) const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid("getBoundaryFlux").boundary_flux(face_of("getBoundaryFlux", face));
+}
+
+lbm::Vec3 LbmEngine::boundary_force(int face) const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid("getBoundaryForce").boundary_force(face_of("getBoundaryForce", face));
+}
+
 double LbmEngine::total_mass() const
 {
     const std::lock_guard lock(mutex_);

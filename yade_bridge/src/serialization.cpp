@@ -25,6 +25,7 @@ void LbmEngine::serialize(Archive& archive, unsigned int)
     archive& make_nvp("acceleration", settings_.acceleration);
     archive& make_nvp("boundary", settings_.boundary);
     archive& make_nvp("boundaryVelocity", settings_.boundary_velocity);
+    archive& make_nvp("boundaryPressure", settings_.boundary_pressure);
     archive& make_nvp("tau", settings_.tau);
     archive& make_nvp("magicParameter", settings_.magic_parameter);
     archive& make_nvp("inertia", settings_.inertia);

@@ -71,26 +71,65 @@ void check_choices(const Settings& s)
     if (s.ranks != 0) refuse("ranks", std::to_string(s.ranks), "only 0, the fluid in this process, is supported today");
 }
 
+struct FaceName {
+    const char* name;
+    lbm::FaceType type;
+};
+constexpr FaceName kFaceTypes[] = {{"periodic", lbm::FaceType::periodic},
+                                   {"noSlip", lbm::FaceType::no_slip},
+                                   {"freeSlip", lbm::FaceType::free_slip},
+                                   {"velocity", lbm::FaceType::velocity},
+                                   {"pressure", lbm::FaceType::pressure}};
+
+const FaceName* find_type(const std::string& name)
+{
+    const auto found =
+        std::find_if(std::begin(kFaceTypes), std::end(kFaceTypes), [&](const FaceName& t) { return name == t.name; });
+    return found == std::end(kFaceTypes) ? nullptr : found;
+}
+
+template <class Value>
+void require_six(const char* name, const std::vector<Value>& values, const char* kind)
+{
+    if (values.size() != 6)
+        refuse(name, "list of " + std::to_string(values.size()),
+               std::string("must have six ") + kind + ": xmin, xmax, ymin, ymax, zmin, zmax");
+}
+
 void check_faces(const Settings& s)
 {
-    if (s.boundary.size() != 6)
-        refuse("boundary", "list of " + std::to_string(s.boundary.size()),
-               "must have six names: xmin, xmax, ymin, ymax, zmin, zmax");
-    if (s.boundary_velocity.size() != 6)
-        refuse("boundaryVelocity", "list of " + std::to_string(s.boundary_velocity.size()),
-               "must have six vectors: xmin, xmax, ymin, ymax, zmin, zmax");
+    require_six("boundary", s.boundary, "names");
+    require_six("boundaryVelocity", s.boundary_velocity, "vectors");
+    require_six("boundaryPressure", s.boundary_pressure, "numbers");
     for (int face = 0; face < 6; ++face) {
         const std::string& type = s.boundary[face];
-        const lbm::Vec3& velocity = s.boundary_velocity[face];
-        if (type != "periodic" && type != "noSlip")
+        if (!find_type(type))
             refuse("boundary" + where(face), "'" + type + "'",
-                   "must be 'periodic' or 'noSlip', the types supported today");
+                   "must be 'periodic', 'noSlip', 'freeSlip', 'velocity' or 'pressure'");
         if ((type == "periodic") != (s.boundary[face ^ 1] == "periodic"))
             refuse("boundary" + where(face), "'" + type + "'",
                    "the opposite face is '" + s.boundary[face ^ 1] + "': both faces of a pair are periodic or none");
-        require_finite("boundaryVelocity" + where(face), velocity, "m/s");
-        if (velocity[face / 2] != 0)
-            refuse("boundaryVelocity" + where(face), text(velocity), "a wall moves in its own plane only");
+        require_finite("boundaryVelocity" + where(face), s.boundary_velocity[face], "m/s");
+        if (!std::isfinite(s.boundary_pressure[face]))
+            refuse("boundaryPressure" + where(face), text(s.boundary_pressure[face]), "must be finite [Pa]");
+    }
+}
+
+/// Velocities and pressures are where the faces have them.
+void check_face_values(const Settings& s)
+{
+    for (int face = 0; face < 6; ++face) {
+        const std::string& type = s.boundary[face];
+        const lbm::Vec3& velocity = s.boundary_velocity[face];
+        if (type == "noSlip" && velocity[face / 2] != 0)
+            refuse("boundaryVelocity" + where(face), text(velocity),
+                   "a noSlip wall moves in its own plane only; 'velocity' lets fluid through");
+        if (type != "noSlip" && type != "velocity" && velocity != lbm::Vec3{})
+            refuse("boundaryVelocity" + where(face), text(velocity),
+                   type + " faces have no velocity; use 'noSlip', 'velocity' or zero");
+        if (type != "pressure" && s.boundary_pressure[face] != 0)
+            refuse("boundaryPressure" + where(face), text(s.boundary_pressure[face]),
+                   type + " faces have no pressure of their own; use 'pressure' or zero");
     }
 }
 
@@ -108,10 +147,7 @@ void check(const Settings& s, bool complete)
     check_numbers(s, complete);
     check_choices(s);
     check_faces(s);
-    for (int face = 0; face < 6; ++face)
-        if (s.boundary[face] == "periodic" && s.boundary_velocity[face] != lbm::Vec3{})
-            refuse("boundaryVelocity" + where(face), text(s.boundary_velocity[face]),
-                   "a periodic face has no velocity; use 'noSlip' or zero");
+    check_face_values(s);
     if (complete || !(upper_unset(s) || std::isnan(s.dx))) (void)cells(s);
 }
 
@@ -136,6 +172,14 @@ std::array<int, 3> cells(const Settings& s)
     return result;
 }
 
+std::array<lbm::FaceCondition, 6> face_conditions(const Settings& s)
+{
+    std::array<lbm::FaceCondition, 6> faces;
+    for (int face = 0; face < 6; ++face)
+        faces[face] = {find_type(s.boundary[face])->type, s.boundary_velocity[face], s.boundary_pressure[face]};
+    return faces;
+}
+
 lbm::FluidConfig fluid_config(const Settings& s, double tau, int threads)
 {
     check(s, true);
@@ -149,10 +193,7 @@ lbm::FluidConfig fluid_config(const Settings& s, double tau, int threads)
     config.magic_parameter = s.magic_parameter;
     config.gravity = s.gravity;
     config.acceleration = s.acceleration;
-    for (int face = 0; face < 6; ++face) {
-        config.faces[face].type = s.boundary[face] == "periodic" ? lbm::FaceType::periodic : lbm::FaceType::no_slip;
-        config.faces[face].velocity = s.boundary_velocity[face];
-    }
+    config.faces = face_conditions(s);
     config.inertia = s.inertia;
     config.storage = s.storage == "single" ? lbm::Storage::single_precision : lbm::Storage::double_precision;
     config.max_mach = s.max_mach;

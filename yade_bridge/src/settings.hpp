@@ -22,6 +22,7 @@ struct Settings {
     lbm::Vec3 acceleration{};
     std::vector<std::string> boundary = std::vector<std::string>(6, "noSlip");
     std::vector<lbm::Vec3> boundary_velocity = std::vector<lbm::Vec3>(6);
+    std::vector<double> boundary_pressure = std::vector<double>(6);
     double tau = kUnset;
     double magic_parameter = kUnset;
     bool inertia = true;
@@ -55,6 +56,9 @@ void check(const Settings& settings, bool complete);
  * @throws lbm::ConfigError  unless upper - lower is a whole number of cells (1e-6 relative) in every direction
  */
 std::array<int, 3> cells(const Settings& settings);
+
+/// The six faces of the engine's configuration.
+std::array<lbm::FaceCondition, 6> face_conditions(const Settings& settings);
 
 /**
  * The engine's configuration.

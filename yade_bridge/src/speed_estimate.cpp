@@ -20,20 +20,31 @@ double hindrance(double c)
     return 1 - 1.7601 * std::cbrt(c) + c - 1.5593 * c * c;
 }
 
-/// Under the uniform drive: the least of what walls (Poiseuille), fixed grains taken as an array (Stokes, Hasimoto) and
+/// Under the uniform drive and between pressure faces: the least of what walls (Poiseuille), fixed grains taken as an array (Stokes, Hasimoto) and
 /// taken as a bed (Carman-Kozeny) allow; each alone is too high where another one holds the fluid back.
 double driven_speed(const Settings& s, const std::vector<lbm::Solid>& solids)
 {
-    const double drive = norm(s.acceleration);
+    lbm::Vec3 gradient = s.acceleration;
+    double drop = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        if (s.boundary[2 * axis] == "pressure" && s.boundary[2 * axis + 1] == "pressure") {
+            const double along = s.boundary_pressure[2 * axis] - s.boundary_pressure[2 * axis + 1];
+            gradient[axis] += along / (s.density * (s.upper[axis] - s.lower[axis]));
+            drop = std::max(drop, std::abs(along));
+        }
+    const double drive = norm(gradient);
     if (drive == 0) return 0;
     const double nu = s.viscosity / s.density;
     double volume = 1, speed = std::numeric_limits<double>::infinity();
+    // without friction, from rest
+    if (drop > 0 && norm(s.acceleration) == 0) speed = std::sqrt(2 * drop / s.density);
     for (int axis = 0; axis < 3; ++axis) {
         const double length = s.upper[axis] - s.lower[axis];
         volume *= length;
-        const double along = std::abs(s.acceleration[axis]) / drive;
-        if (s.boundary[2 * axis] == "noSlip" && along < 0.99)
-            speed = std::min(speed, drive * length * length / (8 * nu));
+        const double along = std::abs(gradient[axis]) / drive;
+        const int walls = (s.boundary[2 * axis] == "noSlip") + (s.boundary[2 * axis + 1] == "noSlip");
+        const double width = walls == 2 ? length : 2 * length;  // one wall: the other half is a mirror image
+        if (walls > 0 && along < 0.99) speed = std::min(speed, drive * width * width / (8 * nu));
     }
     double diameters = 0, occupied = 0;
     for (const lbm::Solid& solid : solids)

@@ -33,6 +33,8 @@ public:
      * @throws ConfigError  for a value outside its range; the message names it and says what would do
      */
     explicit Fluid(const FluidConfig& config);
+    /// @throws ConfigError  as the constructor would, without building anything
+    static void check(const FluidConfig& config);
     ~Fluid();
     Fluid(Fluid&&) noexcept;
     Fluid& operator=(Fluid&&) noexcept;
