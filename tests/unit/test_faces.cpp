@@ -620,7 +620,7 @@ class FacesOfTheBox : public CppUnit::TestFixture {
         test::assert_says(refusal([](auto& c) { c.faces[kZMin] = at_pressure(std::nan("")); }),
                           "pressure of face zmin = nan: must be finite");
         test::assert_says(refusal([](auto& c) { c.faces[kZMin] = at_pressure(0.1); }),
-                          "changes the density by 30 % on this lattice, at most 10 % are allowed; use tau <= ");
+                          "changes the density by 30 % on this lattice, at most 20 % are allowed; use tau <= ");
         test::assert_says(refusal([](auto& c) {
                               c.faces[kZMin] = with_velocity({0, std::nan(""), 0});
                           }),

@@ -104,6 +104,8 @@ double response_time(const Settings& s, const std::vector<lbm::Solid>& solids, d
 double static_pressure(const Settings& s, const std::vector<lbm::Solid>& solids)
 {
     double pressure = 0, diameters = 0;
+    if (s.inertia)  // Stokes flow is linear in the pressure, whatever it does to the density
+        for (const double on_face : s.boundary_pressure) pressure = std::max(pressure, std::abs(on_face));
     for (const lbm::Solid& solid : solids) diameters += 2 * solid.radius;
     const double mean_diameter = solids.empty() ? 0 : diameters / static_cast<double>(solids.size());
     for (int axis = 0; axis < 3; ++axis) {

@@ -29,7 +29,7 @@ double expected_speed(const Settings& settings, const std::vector<lbm::Solid>& s
 double response_time(const Settings& settings, const std::vector<lbm::Solid>& solids, double speed);
 
 /**
- * Largest pressure that the lattice has to carry in a fluid at rest [Pa]: between walls the submerged weight of the free spheres over the
+ * Largest pressure that the lattice has to carry in a fluid at rest [Pa]: the largest of the pressure faces, between walls the submerged weight of the free spheres over the
  * area, and the drive over the box; the drive over a mean diameter where it is periodic.
  */
 double static_pressure(const Settings& settings, const std::vector<lbm::Solid>& solids);

@@ -23,8 +23,8 @@ constexpr const char* kFaceNames[6] = {"xmin", "xmax", "ymin", "ymax", "zmin", "
 /// Decimal input is off by 1e-15; the mass of the fluid may not drift with more.
 constexpr double kBalanced = 1e-9;
 
-/// Of the density, by a pressure face: beyond, a liquid of constant density is not what is computed.
-constexpr double kLargestDensityDeviation = 0.1;
+/// Of the density, by a pressure face: beyond, a liquid of constant density is not what is computed. The planner's limit too.
+constexpr double kLargestDensityDeviation = 0.2;
 
 void validate_face(const FluidConfig& c, int index)
 {
