@@ -161,15 +161,15 @@ LatticeSolid Fluid::Implementation::in_lattice_units(const Solid& solid) const
 }
 
 /**
- * A free solid with the velocity that it will have half a step later, as far as its last two tell. The load of a step acts on the solid after it, so the
- * drag would lag behind the motion; half of the lag is taken out so, less for light solids, whose stability would suffer.
+ * A free solid with the velocity that it will have within the step, as far as its last two tell. The load of a step acts on the solid after it, so the
+ * drag would lag behind the motion; most of the lag is taken out so, less for light solids, whose stability would suffer.
  */
 Solid Fluid::Implementation::in_mid_step(const Solid& solid, const Motion& last) const
 {
     Solid mid = solid;
-    if (std::isfinite(solid.mass)) mid.velocity += (0.5 * last.share) * (solid.velocity - last.velocity);
+    if (std::isfinite(solid.mass)) mid.velocity += velocity_lead(last.share) * (solid.velocity - last.velocity);
     if (std::isfinite(solid.inertia))
-        mid.angular_velocity += (0.5 * last.spin_share) * (solid.angular_velocity - last.angular_velocity);
+        mid.angular_velocity += velocity_lead(last.spin_share) * (solid.angular_velocity - last.angular_velocity);
     return mid;
 }
 

@@ -3,6 +3,7 @@
 #include "lattice/vec3.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lbm {
 
@@ -13,9 +14,9 @@ namespace lbm {
  *
  *     L^n = - sum F_s^n + P_in^n - P_in^(n-1),   P_in = sum eps j_post,
  *
- * and the same for moments. The load is passed on through a virtual mass B = sum (1 - eps) kk rho, which keeps light
- * solids stable: of everything taken from the fluid and not passed on yet, `owed`, a share m / (m + B) is passed on in each step. Nothing is lost: what was
- * taken equals what was passed on plus what is owed.
+ * and the same for moments. The load is passed on through a virtual mass of the size of B = sum (1 - eps) kk rho, which keeps
+ * light solids stable: of everything taken from the fluid and not passed on yet, `owed`, a share (load_share) is passed on in each step. Nothing is lost:
+ * what was taken equals what was passed on plus what is owed.
  */
 struct LoadLedger {
     Vec3 momentum{}, angular_momentum{};  ///< P_in, L_in after the last step
@@ -31,7 +32,7 @@ struct LoadLedger {
      * Books one step.
      * @param force, torque               sum F_s, sum r x F_s
      * @param inside, angular_inside      P_in, L_in after this step
-     * @param share, spin_share           m / (m + B), I / (I + B_w); 1 for a solid whose motion is prescribed
+     * @param share, spin_share           load_share of m and B, of I and B_w; 1 for a solid whose motion is prescribed
      */
     Load settle(const Vec3& force, const Vec3& torque, const Vec3& inside, const Vec3& angular_inside, double share,
                 double spin_share)
@@ -70,10 +71,20 @@ struct LoadLedger {
     }
 };
 
-/// m / (m + B); 1 for infinite m.
+/**
+ * The share of the load that a free solid gets at once, 1 / (1 + B/m + (B/m)^2); 1 for infinite m.
+ *
+ * B is what the load answers to the solid's velocity within the step, and m / (m + B) would do for that alone. The fluid inside answers in the steps
+ * after it with changing signs, the more the lighter the solid is; the square takes care of that, and is nothing to heavy solids.
+ */
 [[nodiscard]] inline double load_share(double mass, double coupling)
 {
-    return std::isinf(mass) ? 1.0 : mass / (mass + coupling);
+    if (std::isinf(mass)) return 1;
+    const double b = coupling / mass;
+    return 1 / (1 + b + b * b);
 }
+
+/// Steps by which the velocity of a free solid is extrapolated before the fluid sees it: 3/4 for heavy ones, none for those that get a small share.
+[[nodiscard]] constexpr double velocity_lead(double share) { return 0.75 * share * share * share; }
 
 }  // namespace lbm
