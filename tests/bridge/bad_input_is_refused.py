@@ -32,8 +32,10 @@ def the_box_is_a_whole_number_of_cells():
 
 
 def choices_that_are_not_supported_are_refused():
-    refused_at_construction("only 'exact' is supported today", scheme="bounceBack")
-    refused_at_construction("only 'trt' is supported today", collision="bgk")
+    refused_at_construction("must be one of 'exact'", scheme="bounce-back")
+    refused_at_construction("must be one of 'trt', 'bgk'", collision="mrt")
+    refused_at_construction("must be one of 'D3Q19', 'D3Q27'", lattice="D3Q15")
+    refused_at_construction("with collision = 'bgk'", collision="bgk", magicParameter=0.25)
     refused_at_construction("must be 'double' or 'single'", storage="half")
     refused_at_construction("only False is supported today", lubrication=True)
     refused_at_construction("only 0, the fluid in this process", ranks=2)
@@ -113,8 +115,8 @@ def missing_values_are_named():
 def a_fluid_without_spheres_is_refused():
     fluid = box((12, 12, 12))
     O.engines = engines(fluid)
-    O.bodies.append(utils.box((0, 0, 0), (1, 1, 1)))
-    refused_by_plan_and_run("no body with a Sphere shape is selected", fluid)
+    O.bodies.append(utils.facet([(0, 0, 0), (1, 0, 0), (0, 1, 0)]))
+    refused_by_plan_and_run("no body with a Sphere or Box shape is selected", fluid)
 
 
 def unknown_ids_are_refused():

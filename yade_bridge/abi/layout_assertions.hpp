@@ -2,6 +2,7 @@
 
 #include <core/GlobalEngine.hpp>
 #include <core/Scene.hpp>
+#include <pkg/common/Box.hpp>
 #include <pkg/common/Sphere.hpp>
 
 #include <cstddef>
@@ -13,7 +14,8 @@ namespace yade {
 
 static_assert(sizeof(Serializable) == 24 && sizeof(Engine) == 104 && sizeof(GlobalEngine) == 104);
 static_assert(sizeof(TimingInfo) == 16 && sizeof(TimingDeltas) == 64);
-static_assert(sizeof(Shape) == 96 && sizeof(Sphere) == 104 && sizeof(State) == 320 && sizeof(Body) == 176);
+static_assert(sizeof(Shape) == 96 && sizeof(Sphere) == 104 && sizeof(Box) == 120 && sizeof(State) == 320 &&
+              sizeof(Body) == 176);
 static_assert(sizeof(BodyContainer) == 200 && sizeof(ForceContainer) == 304 && sizeof(Scene) == 752);
 static_assert(sizeof(Cell) == 1104);
 
@@ -26,6 +28,7 @@ static_assert(offsetof(State, blockedDOFs) == 304);
 static_assert(offsetof(Body, id) == 24 && offsetof(Body, groupMask) == 28 && offsetof(Body, state) == 56);
 static_assert(offsetof(Body, shape) == 72 && offsetof(Body, clumpId) == 152);
 static_assert(offsetof(BodyContainer, body) == 24 && offsetof(Shape, color) == 64 && offsetof(Sphere, radius) == 96);
+static_assert(offsetof(Box, extents) == 96);
 static_assert(offsetof(Scene, forces) == 32 && offsetof(Scene, dt) == 440 && offsetof(Scene, iter) == 448);
 static_assert(offsetof(Scene, time) == 464 && offsetof(Scene, isPeriodic) == 496);
 static_assert(offsetof(Scene, engines) == 552 && offsetof(Scene, _nextEngines) == 576 &&

@@ -43,8 +43,8 @@ const std::vector<Attribute>& attributes()
             "What the faces xmin, xmax, ymin, ymax, zmin, zmax of the box are: six of 'periodic' (both "
             "faces of a pair), 'noSlip', 'freeSlip' (no friction, a plane of symmetry), 'velocity' "
             "(fluid enters or leaves with boundaryVelocity) and 'pressure' (it enters or leaves along the "
-            "normal at boundaryPressure); default 'noSlip'. These are the walls of the fluid: boxes, "
-            "walls and facets of the scene are not seen by it."),
+            "normal at boundaryPressure); default 'noSlip'. Box bodies of the scene are solids in the fluid; "
+            "its walls and facets are not seen by it."),
         YADELBM_ATTRIBUTE(
             "boundaryVelocity", boundary_velocity, true,
             "Velocities of the six faces [m/s], default 0: of a velocity face, in any direction; a noSlip face with "
@@ -63,8 +63,16 @@ const std::vector<Attribute>& attributes()
                           "Lambda of the two relaxation times [-], > 0. NaN, the default: the scheme's own, 1/8."),
         YADELBM_ATTRIBUTE("inertia", inertia, false,
                           "False: Stokes flow, the quadratic terms are dropped. Default True."),
-        YADELBM_ATTRIBUTE("scheme", scheme, false, "Coupling of fluid and solids; 'exact' is supported today."),
-        YADELBM_ATTRIBUTE("collision", collision, false, "Collision operator; 'trt' is supported today."),
+        YADELBM_ATTRIBUTE(
+            "scheme", scheme, false,
+            "Coupling of fluid and solids: 'exact' (default), independent of tau in Stokes flow; for comparison "
+            "'nobleTorczynski', 'nobleTorczynskiLinear', 'superposition', 'bounceBack'."),
+        YADELBM_ATTRIBUTE("collision", collision, false,
+                          "Collision operator: 'trt' (default) or, for comparison, 'bgk'."),
+        YADELBM_ATTRIBUTE(
+            "lattice", lattice, false,
+            "Velocity set: 'D3Q19' (default), or 'D3Q27', which is more isotropic and takes half as much again in "
+            "time and memory."),
         YADELBM_ATTRIBUTE("storage", storage, false, "How populations are kept: 'double' (default) or 'single'."),
         YADELBM_ATTRIBUTE(
             "mask", mask, true,

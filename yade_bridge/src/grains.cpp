@@ -1,6 +1,7 @@
 #include "grains.hpp"
 
 #include <core/Scene.hpp>
+#include <pkg/common/Box.hpp>
 #include <pkg/common/Sphere.hpp>
 
 #include <algorithm>
@@ -10,6 +11,7 @@ namespace yadelbm {
 namespace {
 
 using yade::Body;
+using yade::Box;
 using yade::Sphere;
 using yade::State;
 
@@ -17,9 +19,11 @@ lbm::Vec3 vec3(const yade::Vector3r& v) { return {v[0], v[1], v[2]}; }
 
 bool passes(const Body& body, int mask)
 {
-    // exact type: derived shapes (nodes of beams and membranes) are parts of something else
-    return (mask == 0 || mask == -1 || (body.groupMask & mask) != 0) && body.shape && body.state &&
-           typeid(*body.shape) == typeid(Sphere);
+    if (!body.shape || !body.state) return false;
+    // exact types: derived shapes (nodes of beams and membranes) are parts of something else
+    const yade::Shape& shape = *body.shape;
+    return (mask == 0 || mask == -1 || (body.groupMask & mask) != 0) &&
+           (typeid(shape) == typeid(Sphere) || typeid(shape) == typeid(Box));
 }
 
 /// DOFs of a member are those of its clump.
@@ -37,7 +41,14 @@ lbm::Solid solid(const Body& body, double lead, unsigned blocked)
     const State& state = *body.state;
     lbm::Solid result;
     result.id = body.id;
-    result.radius = static_cast<const Sphere&>(*body.shape).radius;
+    if (const auto* box = dynamic_cast<const Box*>(body.shape.get())) {
+        const yade::Quaternionr& q = state.se3.orientation;
+        result.shape = lbm::Shape::box;
+        result.half_extents = vec3(box->extents);
+        result.orientation = {q.w(), q.x(), q.y(), q.z()};
+    } else {
+        result.radius = static_cast<const Sphere&>(*body.shape).radius;
+    }
     result.position = vec3(state.se3.position);
     result.velocity = vec3(state.vel);
     result.angular_velocity = vec3(state.angVel);
@@ -46,7 +57,7 @@ lbm::Solid solid(const Body& body, double lead, unsigned blocked)
     // the bits of YADE's State: translations in the lower three, rotations in the next three
     constexpr unsigned kTranslations = 7, kRotations = 56;
     if ((blocked & kTranslations) != kTranslations) result.mass = state.mass;
-    if ((blocked & kRotations) != kRotations) result.inertia = state.inertia[0];
+    if ((blocked & kRotations) != kRotations) result.inertia = state.inertia.minCoeff();
     return result;
 }
 

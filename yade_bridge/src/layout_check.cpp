@@ -9,6 +9,7 @@
 
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
+#include <pkg/common/Box.hpp>
 #include <pkg/common/Sphere.hpp>
 
 #include <dlfcn.h>
@@ -88,13 +89,14 @@ void check_virtual_functions(const LayoutProbe& probe)
                               " bytes, YADE has " + std::to_string(yades));
 }
 
-void check_state_body_sphere(const LayoutProbe& probe, const bp::object& yade)
+void check_state_body_shapes(const LayoutProbe& probe, const bp::object& yade)
 {
     const Vec3 position{1.5, -2.25, 3.125}, velocity{4.5, 5.25, -6.125}, rotation{7.5, -8.25, 9.125},
         inertia{0.5, 0.625, 0.75};
     const double mass = 11.5, radius = 0.1875;
     bp::object state = yade.attr("State")();
     state.attr("pos") = vector3(position);
+    state.attr("ori") = bp::import("yade.minieigenHP").attr("Quaternion")(0.5, -0.5, 0.5, 0.5);  // (w, x, y, z)
     state.attr("vel") = vector3(velocity);
     state.attr("angVel") = vector3(rotation);
     state.attr("inertia") = vector3(inertia);
@@ -103,6 +105,8 @@ void check_state_body_sphere(const LayoutProbe& probe, const bp::object& yade)
     const auto* native_state = native<yade::State>(state);
     probe.require_size("State", native_state, sizeof(yade::State));
     probe.require("State.pos", native_state, offsetof(yade::State, se3), position);
+    probe.require("State.ori", native_state, offsetof(yade::State, se3) + sizeof(yade::Vector3r),
+                  std::array<double, 4>{-0.5, 0.5, 0.5, 0.5});  // (x, y, z, w)
     REQUIRE_MEMBER(probe, State, vel, native_state, velocity);
     REQUIRE_MEMBER(probe, State, angVel, native_state, rotation);
     REQUIRE_MEMBER(probe, State, inertia, native_state, inertia);
@@ -114,6 +118,13 @@ void check_state_body_sphere(const LayoutProbe& probe, const bp::object& yade)
     const auto* native_sphere = native<yade::Sphere>(sphere);
     probe.require_size("Sphere", native_sphere, sizeof(yade::Sphere));
     REQUIRE_MEMBER(probe, Sphere, radius, native_sphere, radius);
+
+    const Vec3 extents{0.375, 1.625, 2.875};
+    bp::object box = yade.attr("Box")();
+    box.attr("extents") = vector3(extents);
+    const auto* native_box = native<yade::Box>(box);
+    probe.require_size("Box", native_box, sizeof(yade::Box));
+    REQUIRE_MEMBER(probe, Box, extents, native_box, extents);
 
     bp::dict values;
     values["id"] = 1234567;
@@ -256,7 +267,7 @@ void check_layout()
     const bp::object yade = bp::import("yade.wrapper");
     check_engine(probe, yade);
     check_virtual_functions(probe);
-    check_state_body_sphere(probe, yade);
+    check_state_body_shapes(probe, yade);
     check_scene_members(probe, yade);
     check_forces(probe, yade);
 }

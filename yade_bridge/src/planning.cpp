@@ -19,6 +19,7 @@ constexpr double kSameLength = 1e-6;  // relative, as for the whole number of ce
 void check_spheres(const Settings& s, const std::vector<lbm::Solid>& solids)
 {
     for (const lbm::Solid& solid : solids) {
+        if (solid.shape != lbm::Shape::sphere) continue;  // the engine says what is wrong with a box
         const std::string name = "sphere " + std::to_string(solid.id) + ": radius = " + text(solid.radius);
         if (!(std::isfinite(solid.radius) && solid.radius > 0))
             throw lbm::ConfigError(name + ": must be finite and > 0 [m]");
@@ -75,10 +76,10 @@ void check_selection(const Settings& s, const std::vector<lbm::Solid>& solids)
     for (int id : s.ids)
         if (std::none_of(solids.begin(), solids.end(), [id](const lbm::Solid& solid) { return solid.id == id; }))
             throw lbm::ConfigError("LbmEngine.ids: body " + std::to_string(id) +
-                                   " does not exist, has no Sphere shape or is excluded by mask");
+                                   " does not exist, is neither a Sphere nor a Box or is excluded by mask");
     if (solids.empty())
-        throw lbm::ConfigError("LbmEngine: no body with a Sphere shape is selected (mask = " + std::to_string(s.mask) +
-                               "): append spheres to O.bodies first, or change mask");
+        throw lbm::ConfigError("LbmEngine: no body with a Sphere or Box shape is selected (mask = " +
+                               std::to_string(s.mask) + "): append spheres to O.bodies first, or change mask");
 }
 
 void check_cell(const yade::Scene& scene, const Settings& s)
@@ -127,11 +128,14 @@ lbm::PlanRequest plan_request(const yade::Scene& scene, const Settings& s, const
     request.response_time = response_time(s, solids, request.speed);
     request.static_pressure = static_pressure(s, solids);
     double radii = 0;
+    int spheres = 0;
     for (const lbm::Solid& solid : solids) {
+        if (solid.shape != lbm::Shape::sphere) continue;
         request.smallest_radius = std::min(request.smallest_radius, solid.radius);
         radii += solid.radius;
+        ++spheres;
     }
-    if (!solids.empty()) request.mean_diameter = 2 * radii / static_cast<double>(solids.size());
+    if (spheres > 0) request.mean_diameter = 2 * radii / spheres;
     return request;
 }
 

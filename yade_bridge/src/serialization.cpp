@@ -31,6 +31,7 @@ void LbmEngine::serialize(Archive& archive, unsigned int)
     archive& make_nvp("inertia", settings_.inertia);
     archive& make_nvp("scheme", settings_.scheme);
     archive& make_nvp("collision", settings_.collision);
+    archive& make_nvp("lattice", settings_.lattice);
     archive& make_nvp("storage", settings_.storage);
     archive& make_nvp("mask", settings_.mask);
     archive& make_nvp("ids", settings_.ids);

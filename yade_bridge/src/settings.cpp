@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace yadelbm {
 namespace {
@@ -31,9 +32,14 @@ void require_finite(const std::string& name, const lbm::Vec3& v, const char* uni
         if (!std::isfinite(component)) refuse(name, text(v), std::string("must be finite [") + unit + "]");
 }
 
-void require_one_of(const char* name, const std::string& value, const char* supported)
+void require_one_of(const char* name, const std::string& value, std::initializer_list<const char*> choices)
 {
-    if (value != supported) refuse(name, "'" + value + "'", std::string("only '") + supported + "' is supported today");
+    std::string list;
+    for (const char* choice : choices) {
+        if (value == choice) return;
+        list += std::string(list.empty() ? "'" : ", '") + choice + "'";
+    }
+    refuse(name, "'" + value + "'", "must be one of " + list);
 }
 
 std::string where(int face) { return std::string("[") + kFaceNames[face] + "]"; }
@@ -62,8 +68,13 @@ void check_numbers(const Settings& s, bool complete)
 
 void check_choices(const Settings& s)
 {
-    require_one_of("scheme", s.scheme, "exact");
-    require_one_of("collision", s.collision, "trt");
+    require_one_of("scheme", s.scheme,
+                   {"exact", "nobleTorczynski", "nobleTorczynskiLinear", "superposition", "bounceBack"});
+    require_one_of("collision", s.collision, {"trt", "bgk"});
+    require_one_of("lattice", s.lattice, {"D3Q19", "D3Q27"});
+    if (s.collision == "bgk" && !std::isnan(s.magic_parameter))
+        refuse("magicParameter", text(s.magic_parameter),
+               "with collision = 'bgk' it is (tau - 1/2)^2; leave it out or use 'trt'");
     if (s.storage != "double" && s.storage != "single")
         refuse("storage", "'" + s.storage + "'", "must be 'double' or 'single'");
     if (s.lubrication)
@@ -180,6 +191,19 @@ std::array<lbm::FaceCondition, 6> face_conditions(const Settings& s)
     return faces;
 }
 
+namespace {
+
+lbm::Scheme scheme(const std::string& name)
+{
+    if (name == "nobleTorczynski") return lbm::Scheme::noble_torczynski;
+    if (name == "nobleTorczynskiLinear") return lbm::Scheme::noble_torczynski_linear;
+    if (name == "superposition") return lbm::Scheme::superposition;
+    if (name == "bounceBack") return lbm::Scheme::bounce_back;
+    return lbm::Scheme::exact;
+}
+
+}  // namespace
+
 lbm::FluidConfig fluid_config(const Settings& s, double tau, int threads)
 {
     check(s, true);
@@ -194,6 +218,9 @@ lbm::FluidConfig fluid_config(const Settings& s, double tau, int threads)
     config.gravity = s.gravity;
     config.acceleration = s.acceleration;
     config.faces = face_conditions(s);
+    config.scheme = scheme(s.scheme);
+    config.collision = s.collision == "bgk" ? lbm::Collision::bgk : lbm::Collision::trt;
+    config.lattice = s.lattice == "D3Q27" ? lbm::Lattice::d3q27 : lbm::Lattice::d3q19;
     config.inertia = s.inertia;
     config.storage = s.storage == "single" ? lbm::Storage::single_precision : lbm::Storage::double_precision;
     config.max_mach = s.max_mach;

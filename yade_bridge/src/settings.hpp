@@ -28,6 +28,7 @@ struct Settings {
     bool inertia = true;
     std::string scheme = "exact";
     std::string collision = "trt";
+    std::string lattice = "D3Q19";
     std::string storage = "double";
     int mask = 0;
     std::vector<int> ids;

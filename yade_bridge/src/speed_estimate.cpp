@@ -12,6 +12,15 @@ double norm(const lbm::Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v
 
 double sphere_volume(double radius) { return 4.0 / 3.0 * kPi * radius * radius * radius; }
 
+double volume(const lbm::Solid& solid)
+{
+    const auto& h = solid.half_extents;
+    return solid.shape == lbm::Shape::box ? 8 * h[0] * h[1] * h[2] : sphere_volume(solid.radius);
+}
+
+/// Half of the size of a solid: its radius, or what a box of that volume would have.
+double half_size(const lbm::Solid& solid) { return std::cbrt(3 * volume(solid) / (4 * kPi)); }
+
 /// Share of a lone sphere's speed that is left at solid fraction c: cubic array, dilute.
 /// @see Hasimoto (1959), J. Fluid Mech. 5, 317
 double hindrance(double c)
@@ -93,9 +102,9 @@ double response_time(const Settings& s, const std::vector<lbm::Solid>& solids, d
     const double nu = s.viscosity / s.density;
     for (const lbm::Solid& solid : solids) {
         if (!std::isfinite(solid.mass)) continue;
-        const double ratio = solid.mass / (s.density * sphere_volume(solid.radius));
-        const double stokes = (ratio + 0.5) * (2.0 / 9) * solid.radius * solid.radius / nu;
-        const double reynolds = std::min(speed * 2 * solid.radius / nu, 1000.0);
+        const double ratio = solid.mass / (s.density * volume(solid));
+        const double stokes = (ratio + 0.5) * (2.0 / 9) * half_size(solid) * half_size(solid) / nu;
+        const double reynolds = std::min(speed * 2 * half_size(solid) / nu, 1000.0);
         shortest = std::min(shortest, stokes / (1 + 0.15 * std::pow(reynolds, 0.687)));
     }
     return shortest;
@@ -106,8 +115,12 @@ double static_pressure(const Settings& s, const std::vector<lbm::Solid>& solids)
     double pressure = 0, diameters = 0;
     if (s.inertia)  // Stokes flow is linear in the pressure, whatever it does to the density
         for (const double on_face : s.boundary_pressure) pressure = std::max(pressure, std::abs(on_face));
-    for (const lbm::Solid& solid : solids) diameters += 2 * solid.radius;
-    const double mean_diameter = solids.empty() ? 0 : diameters / static_cast<double>(solids.size());
+    int spheres = 0;
+    for (const lbm::Solid& solid : solids) {
+        diameters += 2 * solid.radius;
+        spheres += solid.shape == lbm::Shape::sphere;
+    }
+    const double mean_diameter = spheres == 0 ? 0 : diameters / spheres;
     for (int axis = 0; axis < 3; ++axis) {
         const double length = s.upper[axis] - s.lower[axis];
         const bool periodic = s.boundary[2 * axis] == "periodic";
@@ -117,8 +130,7 @@ double static_pressure(const Settings& s, const std::vector<lbm::Solid>& solids)
         for (int other = 0; other < 3; ++other)
             if (other != axis) area *= s.upper[other] - s.lower[other];
         for (const lbm::Solid& solid : solids)
-            if (std::isfinite(solid.mass))
-                weight += (solid.mass - s.density * sphere_volume(solid.radius)) * s.gravity[axis];
+            if (std::isfinite(solid.mass)) weight += (solid.mass - s.density * volume(solid)) * s.gravity[axis];
         pressure += std::abs(weight) / area;
     }
     return pressure;
@@ -130,10 +142,11 @@ double expected_speed(const Settings& s, const std::vector<lbm::Solid>& solids)
     for (const lbm::Vec3& wall : s.boundary_velocity) speed = std::max(speed, norm(wall));
     const double gravity = norm(s.gravity);
     for (const lbm::Solid& solid : solids) {
-        speed = std::max(speed, norm(solid.velocity) + norm(solid.angular_velocity) * solid.radius);
+        speed = std::max(speed, norm(solid.velocity) +
+                                    norm(solid.angular_velocity) * (solid.radius + norm(solid.half_extents)));
         if (std::isfinite(solid.mass)) {
-            const double difference = solid.mass / sphere_volume(solid.radius) - s.density;
-            speed = std::max(speed, settling_speed(2 * solid.radius, difference, gravity, s.density, s.viscosity));
+            const double difference = solid.mass / volume(solid) - s.density;
+            speed = std::max(speed, settling_speed(2 * half_size(solid), difference, gravity, s.density, s.viscosity));
         }
     }
     return speed;

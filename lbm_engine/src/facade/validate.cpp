@@ -132,18 +132,34 @@ void validate_pipe(const FluidConfig& c, const Solid& s, const Fail& fail)
     }
 }
 
+/// Whether any part of a box can lie in the fluid; one that stands outside, as walls of the grains often do, may be as thin as it likes.
+bool reaches_into_fluid(const FluidConfig& c, const Solid& s)
+{
+    const double reach = norm(s.half_extents);
+    const Vec3& h = s.half_extents;
+    const bool turned = s.orientation != std::array<double, 4>{1, 0, 0, 0};
+    for (int d = 0; d < 3; ++d) {
+        if (c.faces[2 * d].type == FaceType::periodic) continue;
+        const double half = turned ? reach : h[d], upper = c.lower[d] + c.cells[d] * c.dx;
+        if (s.position[d] + half <= c.lower[d] + 1e-6 * c.dx || s.position[d] - half >= upper - 1e-6 * c.dx)
+            return false;
+    }
+    return true;
+}
+
 void validate_box(const FluidConfig& c, const Solid& s, const Fail& fail)
 {
+    if (!reaches_into_fluid(c, s)) return;
     double norm2 = 0;
     for (const double q : s.orientation) norm2 += q * q;
     if (!(std::abs(norm2 - 1) < 1e-6)) fail("orientation: must be a unit quaternion (w, x, y, z)");
     for (int a = 0; a < 3; ++a) {
         const double h = s.half_extents[a];
-        if (!(std::isfinite(h) && h > 0)) fail(message("half extent = ", h, ": must be finite and > 0 [m]"));
+        if (!(std::isfinite(h) && h >= 0)) fail(message("half extent = ", h, ": must be finite and >= 0 [m]"));
         if (h < kMinHalfExtentInCells * c.dx * (1 - 1e-9))
-            fail(message("half extent = ", h, " m is ", h / c.dx,
-                         " cells: a box must be at least two cells thick; use dx <= ", h / kMinHalfExtentInCells,
-                         " m"));
+            fail(message(
+                "thickness = ", 2 * h, " m is ", 2 * h / c.dx,
+                " cells: a box in the fluid must be at least two cells thick; make it thicker, or leave it out"));
     }
 }
 
