@@ -51,7 +51,10 @@ class BadInput : public CppUnit::TestFixture {
         assert_says(config_error([](auto& c) { c.threads = -1; }), "threads = -1");
         assert_says(config_error([](auto& c) { c.faces[kXMin].type = FaceType::no_slip; }),
                     "boundary along x: one face is periodic");
-        assert_says(config_error([](auto& c) { c.faces[kXMin].velocity = {0, 1, 0}; }), "only a velocity face or a moving no-slip wall has one");
+        assert_says(config_error([](auto& c) {
+                        c.faces[kXMin].velocity = {0, 1, 0};
+                    }),
+                    "only a velocity face or a moving no-slip wall has one");
         assert_says(config_error([](auto& c) {
                         test::walls(c, 2);
                         c.faces[kZMax].velocity = {0, 0, 0.1};
