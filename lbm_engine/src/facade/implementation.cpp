@@ -116,6 +116,7 @@ Fluid::Implementation::Implementation(const FluidConfig& c)
     , populations(make_populations(c))
     , faces(std::visit([&](const auto& f) { return Faces(f.layout, lattice_faces(c, units), c.inertia); }, populations))
     , map(c.cells, periodic_axes(c), Weighting(c.lattice, magic_parameter(c)), c.scheme == Scheme::bounce_back)
+    , films(c.cells, periodic_axes(c), c.lubrication_roughness)
 {
     start_at(mean_face_pressure(lattice_faces(c, units)));
 }
@@ -218,6 +219,7 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
     if (!same_ids) {
         std::vector<LoadLedger> kept(now.size());
         std::vector<Motion> motions(now.size());
+        std::vector<FilmMemory> memories(now.size());
         if (any_new)
             std::visit([&](const auto& f) { sum_inside(f, collision, config.inertia, map, &CellState::momentum); },
                        populations);
@@ -227,8 +229,10 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
             if (previous[s] >= 0) {
                 kept[s] = ledgers[previous[s]];
                 motions[s] = last_motions[previous[s]];
+                memories[s] = film_memories[previous[s]];
             } else {
                 motions[s] = {now[s].velocity, now[s].angular_velocity, 0, 0};
+                memories[s] = {now[s].velocity, now[s].angular_velocity, {}, {}, {}, {}};
                 const SolidSums sums = map.sums(s);
                 kept[s].momentum = sums.momentum;
                 kept[s].angular_momentum = sums.angular_momentum;
@@ -236,6 +240,7 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
         }
         ledgers = std::move(kept);
         last_motions = std::move(motions);
+        film_memories = std::move(memories);
         loads.assign(now.size(), SolidLoad{});
     }
     solids = now;
@@ -262,6 +267,7 @@ void Fluid::Implementation::step()
         populations);
     watch_time.lap();
     settle_loads();
+    if (config.lubrication) add_film_loads();
     times.loads += watch_time.lap();
 }
 

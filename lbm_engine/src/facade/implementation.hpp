@@ -3,6 +3,7 @@
 #include "lbm/fluid.hpp"
 
 #include "domain/faces.hpp"
+#include "fields/films.hpp"
 #include "fields/sweep.hpp"
 #include "lattice/units.hpp"
 #include "physics/load_ledger.hpp"
@@ -42,6 +43,7 @@ struct Fluid::Implementation {
     AnyPopulations populations;
     Faces faces;
     SolidMap map;
+    Films films;
     std::int64_t steps = 0, steps_before_dt = 0;  // the latter when dt became what it is
     double time_before_dt = 0;
 
@@ -51,8 +53,16 @@ struct Fluid::Implementation {
         Vec3 velocity, angular_velocity;
         double share, spin_share;  ///< of the load that was passed on (LoadLedger)
     };
-    std::vector<Motion> last_motions;                   // of the solids in the last step; in the same order
-    std::unordered_map<std::int64_t, int> index_of_id;  // into both
+    std::vector<Motion> last_motions;  // of the solids in the last step; in the same order
+    /// What films remember of a solid, SI.
+    struct FilmMemory {
+        Vec3 velocity, angular_velocity, impulse, angular_impulse;  ///< at the last step, and its loads'
+        Vec3 other_force, other_torque;  ///< of weight and contacts, as its motion tells, smoothed
+    };
+    std::vector<FilmMemory> film_memories;  // in the same order
+    double film_dt = 0;                     // of that step
+    std::vector<FilmSphere> film_spheres;
+    std::unordered_map<std::int64_t, int> index_of_id;  // into all of them
     std::vector<SolidLoad> loads;
     double max_speed2 = 0;
     StepTimes times;
@@ -69,6 +79,7 @@ struct Fluid::Implementation {
     void rebuild_faces(double dynamic_pressure_scale);
     double time() const { return time_before_dt + static_cast<double>(steps - steps_before_dt) * dt; }
     void settle_loads();
+    void add_film_loads();
     SolidLoad load_in_si(std::size_t s, const LoadLedger::Load& load, const SolidSums& sums) const;
     void watch(const SpeedWatch& speeds) const;
     void watch_surfaces() const;

@@ -1,0 +1,122 @@
+#include "physics/lubrication.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace lbm {
+namespace {
+
+/**
+ * How much wider than it is a gap looks to the lattice: at contact, and the gap from which on it looks as it is [cells]. Measured with spheres of 4, 6 and 8
+ * cells, which agree; docs/physics.md has the tables.
+ */
+struct Blur {
+    double at_contact, until;
+
+    double seen(double gap) const
+    {
+        const double left = std::max(0.0, 1 - gap / until);
+        return gap + at_contact * left * left * left;
+    }
+};
+
+constexpr Blur kSqueeze{0.36, kWidestFilm}, kSlide{0.26, 1.75}, kPump{0.25, 1.75};
+constexpr Blur kSqueezeAtWall{0.26, kWidestFilm}, kPumpAtWall{0.19, 1.4};
+
+/// Sliding along a wall is overdone between 0.06 and 0.8 cells, since the first layer of cells takes the sphere's velocity at its centre.
+double seen_sliding_at_wall(double gap) { return gap < 0.809 ? gap + 0.6 * (gap - 0.0577) * (gap - 0.809) : gap; }
+
+}  // namespace
+
+SeenGaps seen_gaps(double gap, bool wall)
+{
+    return {(wall ? kSqueezeAtWall : kSqueeze).seen(gap), wall ? seen_sliding_at_wall(gap) : kSlide.seen(gap),
+            (wall ? kPumpAtWall : kPump).seen(gap)};
+}
+
+FilmResistance film_resistance(double viscosity, double a1, double a2, double gap, const SeenGaps& seen)
+{
+    const bool wall = std::isinf(a2);
+    const double a = wall ? a1 : a1 * a2 / (a1 + a2);
+    const double unlike = wall ? 0 : a1 * a2 / ((a1 + a2) * (a1 + a2));  // L / (1 + L)^2
+    const double pi_mu = std::numbers::pi * viscosity;
+    FilmResistance r;
+    r.squeeze = 6 * pi_mu * a * (a * (1 / gap - 1 / seen.squeeze) + (0.2 + unlike) * std::log(seen.squeeze / gap));
+    r.slide = 2 * pi_mu * a * std::log(seen.slide / gap);
+    r.pump = 1.2 * pi_mu * a * std::log(seen.pump / gap);
+    return r;
+}
+
+Film make_film(const Vec3& normal, double a1, double a2, double distance, const FilmResistance& r)
+{
+    Film film;
+    film.normal = normal;
+    film.resistance = r;
+    if (std::isinf(a2)) {
+        film.arm[0] = a1;
+        film.part[1] = 1;
+    } else {
+        film.part[0] = a1 / (a1 + a2);
+        film.part[1] = a2 / (a1 + a2);
+        for (int i = 0; i < 2; ++i) film.arm[i] = film.part[i] * distance;
+    }
+    return film;
+}
+
+double Film::relax(FilmBody& first, FilmBody& second)
+{
+    const double lightness = first.inverse_mass + second.inverse_mass;
+    const Vec3 v = second.velocity - first.velocity;
+    const double separation = dot(v, normal);
+    const Vec3 v_t = v - separation * normal;
+
+    // N = -squeeze (w + lightness (N - N_before))
+    const double squeeze = resistance.squeeze;
+    const double squeezed_now = squeeze * (lightness * squeezed - separation) / (1 + squeeze * lightness);
+
+    // S = -Z (u + K (S - S_before)), the same 2 x 2 for both tangential directions
+    const Vec3 u[2] = {arm[0] * cross(first.angular_velocity, normal) - part[0] * v_t,
+                       part[1] * v_t - arm[1] * cross(second.angular_velocity, normal)};
+    const double k00 = arm[0] * arm[0] * first.inverse_inertia + lightness * part[0] * part[0];
+    const double k11 = arm[1] * arm[1] * second.inverse_inertia + lightness * part[1] * part[1];
+    const double k01 = -lightness * part[0] * part[1];
+    // What the lattice overdoes is taken back (slide < 0), as far as inertia allows without becoming unstable.
+    double slide = resistance.slide;
+    if (slide < 0) slide /= 1 - 4 * slide * (k00 + k11);
+    const double z_same = resistance.pump + slide, z_other = resistance.pump - slide;
+    const Vec3 w0 = u[0] - k00 * sheared[0] - k01 * sheared[1];
+    const Vec3 w1 = u[1] - k01 * sheared[0] - k11 * sheared[1];
+    const double m00 = 1 + z_same * k00 + z_other * k01, m01 = z_same * k01 + z_other * k11;
+    const double m10 = z_other * k00 + z_same * k01, m11 = 1 + z_other * k01 + z_same * k11;
+    const double determinant = m00 * m11 - m01 * m10;
+    const Vec3 b0 = -(z_same * w0 + z_other * w1), b1 = -(z_other * w0 + z_same * w1);
+    const Vec3 sheared_now[2] = {(1 / determinant) * (m11 * b0 - m01 * b1), (1 / determinant) * (m00 * b1 - m10 * b0)};
+
+    const double d_squeezed = squeezed_now - squeezed;
+    const Vec3 d_sheared[2] = {sheared_now[0] - sheared[0], sheared_now[1] - sheared[1]};
+    const Vec3 on_second = d_squeezed * normal + part[1] * d_sheared[1] - part[0] * d_sheared[0];
+    first.velocity -= first.inverse_mass * on_second;
+    second.velocity += second.inverse_mass * on_second;
+    first.angular_velocity += (first.inverse_inertia * arm[0]) * cross(normal, d_sheared[0]);
+    second.angular_velocity -= (second.inverse_inertia * arm[1]) * cross(normal, d_sheared[1]);
+    squeezed = squeezed_now;
+    sheared[0] = sheared_now[0];
+    sheared[1] = sheared_now[1];
+    return d_squeezed * d_squeezed + dot(d_sheared[0], d_sheared[0]) + dot(d_sheared[1], d_sheared[1]);
+}
+
+Mat3 Film::stresslet_of(int which) const
+{
+    // Shear acts along the surface, pressure along its normals: of the tangential force the shear counts once, the pressure twice.
+    const double sign = which == 0 ? -1 : 1;
+    const Vec3 tangential = sign * (part[1] * sheared[1] - part[0] * sheared[0]);
+    const Vec3 acting = (sign * squeezed) * normal + 2 * tangential - sheared[which];
+    const Vec3 out = (which == 0 ? arm[0] : -arm[1]) * normal;
+    const double third = dot(out, acting) / 3;
+    Mat3 s{};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) s[i][j] = 0.5 * (out[i] * acting[j] + out[j] * acting[i]) - (i == j ? third : 0);
+    return s;
+}
+
+}  // namespace lbm
