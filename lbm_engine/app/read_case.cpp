@@ -231,6 +231,8 @@ Case read_case(const Json& json)
                                                                                        : Storage::double_precision;
     fluid.lattice = root.choice("lattice", "D3Q19", {"D3Q19", "D3Q27"}) == "D3Q27" ? Lattice::d3q27 : Lattice::d3q19;
     fluid.inertia = root.flag("inertia", true);
+    fluid.lubrication = root.flag("lubrication", fluid.lubrication);
+    fluid.lubrication_roughness = root.number("lubrication_roughness", fluid.lubrication_roughness);
     fluid.acceleration = root.vector("acceleration", {});
     fluid.gravity = root.vector("gravity", {});
     fluid.max_mach = root.number("max_mach", fluid.max_mach);

@@ -25,6 +25,7 @@ VALUES = dict(
     mask=3,
     ids=[0],
     lubrication=False,
+    lubricationRoughness=2e-3,
     maxMach=0.15,
     accuracy=0.03,
     stopFile="stopped.vti",

@@ -18,6 +18,7 @@ def values_out_of_range_are_refused_at_construction():
             refused_at_construction("%s = " % name, **{name: value})
     refused_at_construction("maxMach = ", maxMach=NAN)
     refused_at_construction("magicParameter = -1", magicParameter=-1)
+    refused_at_construction("lubricationRoughness = 0: must be between", lubricationRoughness=0)
     refused_at_construction("gravity = ", gravity=(0, 0, NAN))
     refused_at_construction("acceleration = ", acceleration=(0, 0, math.inf))
     refused_at_construction("upper = ", upper=(NAN, 1, 1))
@@ -37,7 +38,6 @@ def choices_that_are_not_supported_are_refused():
     refused_at_construction("must be one of 'D3Q19', 'D3Q27'", lattice="D3Q15")
     refused_at_construction("with collision = 'bgk'", collision="bgk", magicParameter=0.25)
     refused_at_construction("must be 'double' or 'single'", storage="half")
-    refused_at_construction("only False is supported today", lubrication=True)
     refused_at_construction("only 0, the fluid in this process", ranks=2)
 
 
@@ -216,6 +216,25 @@ def a_cell_that_is_not_the_box_is_refused():
     check(fluid.fluidSteps > 0, "fluid does not run once all is right")
 
 
+def lubrication_is_not_counted_twice():
+    fluid = one_sphere()
+    O.engines = O.engines[:2] + [
+        InteractionLoop(
+            [Ig2_Sphere_Sphere_ScGeom()],
+            [Ip2_FrictMat_FrictMat_LubricationPhys(eta=1)],
+            [Law2_ScGeom_ImplicitLubricationPhys()],
+        ),
+        fluid,
+        NewtonIntegrator(damping=0),
+    ]
+    refused_by_plan_and_run("Law2_ScGeom_ImplicitLubricationPhys in the InteractionLoop has lubrication of its own", fluid)
+    fluid.lubrication = False
+    warnings = fluid.plan().warnings
+    check(any("also the part that the lattice resolves" in warning for warning in warnings), "no warning: %s" % warnings)
+    O.run(3, True)
+    check(fluid.fluidSteps > 0, "fluid does not run with the other law alone")
+
+
 def attributes_are_fixed_once_the_fluid_exists():
     fluid = one_sphere()
     O.run(3, True)
@@ -290,6 +309,7 @@ prove(
     too_fast_for_the_lattice_stops_the_run,
     a_state_that_cannot_be_kept_does_not_hide_the_reason,
     a_cell_that_is_not_the_box_is_refused,
+    lubrication_is_not_counted_twice,
     attributes_are_fixed_once_the_fluid_exists,
     queries_need_a_fluid,
     what_is_likely_not_meant_is_said,

@@ -80,8 +80,14 @@ const std::vector<Attribute>& attributes()
             "changed at any time."),
         YADELBM_ATTRIBUTE("ids", ids, true,
                           "Ids of the bodies in the fluid; empty (default): all. May be changed at any time."),
-        YADELBM_ATTRIBUTE("lubrication", lubrication, false,
-                          "Corrections for gaps that the lattice cannot resolve; False is supported today."),
+        YADELBM_ATTRIBUTE(
+            "lubrication", lubrication, false,
+            "Adds what the lattice does not resolve of gaps below 3.5 cells between spheres, and between "
+            "spheres and noSlip faces: forces and torques of approach, sliding and rolling. Default True; "
+            "False where a contact law has its own lubrication."),
+        YADELBM_ATTRIBUTE("lubricationRoughness", lubrication_roughness, false,
+                          "Gap below which lubrication gets no stronger, in radii of the smaller sphere [-], 1e-6 to "
+                          "0.1, default 1e-3: the height of what is rough on real grains."),
         YADELBM_ATTRIBUTE("maxMach", max_mach, false,
                           "Largest Mach number on the lattice [-], default 0.2; a run that goes beyond it stops."),
         YADELBM_ATTRIBUTE("accuracy", accuracy, false,

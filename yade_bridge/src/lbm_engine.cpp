@@ -44,6 +44,7 @@ LbmEngine::~LbmEngine() = default;
 void LbmEngine::action()
 {
     try {
+        if (!fluid_) ask_for_lubrication_law();
         advance();
     } catch (...) {
         // O.run(n, True) starts the thread of this step and then waits for it; if the step has failed before the wait
@@ -51,6 +52,19 @@ void LbmEngine::action()
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
         throw;
     }
+}
+
+/// Before the lock is taken: queries hold the interpreter while they wait for the lock.
+void LbmEngine::ask_for_lubrication_law()
+{
+    const PyGILState_STATE interpreter = PyGILState_Ensure();
+    try {
+        lubrication_law_ = lubrication_law(*scene);
+    } catch (const boost::python::error_already_set&) {
+        PyErr_Clear();
+        lubrication_law_.clear();
+    }
+    PyGILState_Release(interpreter);
 }
 
 void LbmEngine::advance()
@@ -89,6 +103,7 @@ void LbmEngine::start()
     started_in_ = scene;
     read_solids(*scene, {settings_.mask, settings_.ids}, 0, solids_);
     check_scene(*scene, settings_, solids_);
+    check_lubrication(settings_, lubrication_law_);
     const lbm::Plan plan = lbm::plan_time_step(plan_request(*scene, settings_, solids_));
     auto fluid = std::make_unique<lbm::Fluid>(fluid_config(settings_, plan.tau, std::max(0, ompThreads)));
     schedule_ = Schedule(scene->dt, fluid->dt());
@@ -254,6 +269,7 @@ FluidPlan LbmEngine::plan() const
     std::vector<lbm::Solid> solids;
     read_solids(now, {settings_.mask, settings_.ids}, 0, solids);
     check_scene(now, settings_, solids);
+    check_lubrication(settings_, lubrication_law(now));
     lbm::PlanRequest request = plan_request(now, settings_, solids);
     if (fluid_) {
         request.tau = fluid_->config().tau;

@@ -37,6 +37,12 @@ void check_selection(const Settings& settings, const std::vector<lbm::Solid>& so
 lbm::PlanRequest plan_request(const yade::Scene& scene, const Settings& settings,
                               const std::vector<lbm::Solid>& solids);
 
+/// Name of the contact law of the scene that has lubrication of its own, or empty. Asks Python: the interpreter must be held.
+std::string lubrication_law(const yade::Scene& scene);
+
+/// @throws lbm::ConfigError  if fluid and contact law would both add lubrication
+void check_lubrication(const Settings& settings, const std::string& law);
+
 /**
  * What in the scene is likely not meant, each a sentence: damping, another gravity, contacts that do not cross a periodic
  * face. Asks YADE's Python objects: to be called from Python only.

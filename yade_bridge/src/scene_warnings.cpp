@@ -3,6 +3,8 @@
 #include "lbm_engine.hpp"
 #include "text.hpp"
 
+#include "lbm/errors.hpp"
+
 #include <core/Scene.hpp>
 
 #include <boost/python.hpp>
@@ -77,6 +79,31 @@ double contact_frequency(const yade::Scene& scene, const std::vector<lbm::Solid>
 
 double critical_time_step() { return bp::extract<double>(bp::import("yade.utils").attr("PWaveTimeStep")()); }
 
+std::string lubrication_law(const yade::Scene& scene)
+{
+    const auto& engines = scene._nextEngines.empty() ? scene.engines : scene._nextEngines;
+    for (const auto& engine : engines) {
+        if (!engine || engine->dead || engine->getClassName() != "InteractionLoop") continue;
+        const bp::object functors = bp::object(engine).attr("lawDispatcher").attr("functors");
+        for (bp::ssize_t i = 0; i < bp::len(functors); ++i) {
+            const std::string name = bp::extract<std::string>(functors[i].attr("__class__").attr("__name__"));
+            if (name.find("Lubrication") != std::string::npos) return name;
+        }
+    }
+    return {};
+}
+
+void check_lubrication(const Settings& s, const std::string& law)
+{
+    if (!s.lubrication || law.empty()) return;
+    std::string text = "LbmEngine.lubrication = True while ";
+    text += law;
+    text +=
+        " in the InteractionLoop has lubrication of its own: the force of narrow gaps would count twice; use another "
+        "contact law, or lubrication=False to leave narrow gaps to this one";
+    throw lbm::ConfigError(text);
+}
+
 std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& s)
 {
     std::vector<std::string> warnings;
@@ -89,6 +116,11 @@ std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings
         warnings.emplace_back(
             "The fluid is periodic and the scene is not: grains feel the fluid across a periodic face and "
             "do not touch across it.");
+    const std::string law = lubrication_law(scene);
+    if (!law.empty())
+        warnings.emplace_back(law +
+                              " adds the whole lubrication force of a gap, also the part that the lattice resolves: "
+                              "in gaps above half a cell the sum is too high.");
     return warnings;
 }
 

@@ -36,6 +36,7 @@ void LbmEngine::serialize(Archive& archive, unsigned int)
     archive& make_nvp("mask", settings_.mask);
     archive& make_nvp("ids", settings_.ids);
     archive& make_nvp("lubrication", settings_.lubrication);
+    archive& make_nvp("lubricationRoughness", settings_.lubrication_roughness);
     archive& make_nvp("maxMach", settings_.max_mach);
     archive& make_nvp("accuracy", settings_.accuracy);
     archive& make_nvp("stopFile", settings_.stop_file);

@@ -57,6 +57,10 @@ void check_numbers(const Settings& s, bool complete)
     require_positive("maxMach", s.max_mach, "-", true);
     require_positive("accuracy", s.accuracy, "-", true);
     require_positive("magicParameter", s.magic_parameter, "-; NaN: the scheme's own", false);
+    if (!(s.lubrication_roughness >= lbm::kMinRoughness && s.lubrication_roughness <= lbm::kMaxRoughness))
+        refuse("lubricationRoughness", text(s.lubrication_roughness),
+               "must be between " + text(lbm::kMinRoughness) + " and " + text(lbm::kMaxRoughness) +
+                   " radii of the smaller sphere");
     require_finite("lower", s.lower, "m");
     require_finite("gravity", s.gravity, "m/s2");
     require_finite("acceleration", s.acceleration, "m/s2");
@@ -77,8 +81,6 @@ void check_choices(const Settings& s)
                "with collision = 'bgk' it is (tau - 1/2)^2; leave it out or use 'trt'");
     if (s.storage != "double" && s.storage != "single")
         refuse("storage", "'" + s.storage + "'", "must be 'double' or 'single'");
-    if (s.lubrication)
-        refuse("lubrication", "True", "only False is supported today; YADE's own lubrication laws may be used");
     if (s.ranks != 0) refuse("ranks", std::to_string(s.ranks), "only 0, the fluid in this process, is supported today");
 }
 
@@ -223,6 +225,8 @@ lbm::FluidConfig fluid_config(const Settings& s, double tau, int threads)
     config.lattice = s.lattice == "D3Q27" ? lbm::Lattice::d3q27 : lbm::Lattice::d3q19;
     config.inertia = s.inertia;
     config.storage = s.storage == "single" ? lbm::Storage::single_precision : lbm::Storage::double_precision;
+    config.lubrication = s.lubrication;
+    config.lubrication_roughness = s.lubrication_roughness;
     config.max_mach = s.max_mach;
     config.threads = threads;
     return config;

@@ -32,7 +32,8 @@ struct Settings {
     std::string storage = "double";
     int mask = 0;
     std::vector<int> ids;
-    bool lubrication = false;
+    bool lubrication = true;
+    double lubrication_roughness = 1e-3;
     double max_mach = 0.2;
     double accuracy = 0.02;
     std::string stop_file = "lbm-stopped.vti";

@@ -92,9 +92,9 @@ void validate(const FluidConfig& c)
         throw ConfigError(message("magic_parameter = ", c.magic_parameter,
                                   ": with one relaxation time (bgk) it is (tau - 1/2)^2; leave it out or use trt"));
     require_positive("max_mach", c.max_mach, "-");
-    if (!(c.lubrication_roughness >= 1e-6 && c.lubrication_roughness <= 0.1))
-        throw ConfigError(message("lubrication_roughness = ", c.lubrication_roughness,
-                                  ": must lie between 1e-6 and 0.1 [radii of the smaller sphere]"));
+    if (!(c.lubrication_roughness >= kMinRoughness && c.lubrication_roughness <= kMaxRoughness))
+        throw ConfigError(message("lubrication_roughness = ", c.lubrication_roughness, ": must lie between ",
+                                  kMinRoughness, " and ", kMaxRoughness, " [radii of the smaller sphere]"));
     require_finite("lower", c.lower, "m");
     require_finite("gravity", c.gravity, "m/s2");
     require_finite("acceleration", c.acceleration, "m/s2");
