@@ -396,7 +396,7 @@ class Lubrication : public CppUnit::TestFixture {
         for (int i = 0; i < 4 * 4 * 4; ++i) {  // a lattice of touching neighbours, 45 % solid
             Solid s = free_sphere(i, 3.8, 1.0, {4.0 + 8 * (i % 4), 4.0 + 8 * (i / 4 % 4), 4.0 + 8 * (i / 16)});
             s.velocity = {speed(random), speed(random), speed(random)};
-            s.angular_velocity = {speed(random), speed(random), speed(random)};
+            s.angular_velocity = {0.3 * speed(random), 0.3 * speed(random), 0.3 * speed(random)};
             grains.push_back(s);
         }
         const std::vector<Vec3> none(grains.size());

@@ -45,7 +45,8 @@ double Fluid::boundary_flux(Face face) const
 
 Vec3 Fluid::boundary_force(Face face) const
 {
-    return implementation_->units.force * implementation_->passages()[face].momentum;
+    const auto& fluid = *implementation_;
+    return fluid.units.force * (fluid.passages()[face].momentum + fluid.films.forces_on_walls()[face]);
 }
 
 double Fluid::mean_density_deviation() const
