@@ -10,7 +10,7 @@ namespace lbm {
 
 /// A sphere as its films see it, in lattice units.
 struct FilmSphere {
-    Vec3 centre{};  ///< wrapped into the box in periodic directions
+    Vec3 centre{};           ///< wrapped into the box in periodic directions
     double radius = 0;       ///< 0: not a sphere, and without films
     std::int64_t body = -1;  ///< members of one rigid body (>= 0) have no film between them
     FilmBody motion;         ///< that it would have without films at the end of the step
