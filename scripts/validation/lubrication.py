@@ -1,0 +1,136 @@
+"""Narrow gaps: loads of a sphere that approaches another one or a wall, slides along it or turns at it, against exact series."""
+
+import math
+
+from .case import Case, Figure, Row, Run, groups
+from .engine import lbm, offsets, reference, sphere, stokes
+from .plotting import COLOURS, MARKERS
+from .report import percent, table
+
+GAPS = (0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.75, 1)  # in radii
+WIDE = 2.4  # cells; beyond, everything is resolved, and what is left is the periodic box
+TAU, SPEED = 1.5, 1e-5
+OBLIQUE = (0.8, 0.36, 0.48)
+MOTIONS = {  # table, column, load (of 6 pi mu a U), target
+    "two spheres approach": ("06_lubrication_normal.csv", "two_spheres_approach", 0.03),
+    "approach of a wall": ("06_lubrication_normal.csv", "wall_normal", 0.03),
+    "slides along a wall": ("06_lubrication_tangential.csv", "Ft", 0.03),
+    "turns at a wall": ("06_lubrication_tangential.csv", "Tr", 0.03),
+}
+
+
+def exact(motion, gap):
+    name, column, _ = MOTIONS[motion]
+    return next(float(row[column]) for row in reference(name) if math.isclose(float(row["h_over_a"]), gap))
+
+
+def load(motion, radius, gap, offset, lubrication):
+    """Load of one motion at a gap (in radii), made dimensionless like the reference."""
+    n = 8 * math.ceil(1.2 * radius)
+    h, middle = gap * radius, n // 2
+    x, y, z = (middle + o for o in offset)
+    if motion == "two spheres approach":
+        solids = [sphere([c + s * (radius + h / 2) * d for c, d in zip((x, y, z), OBLIQUE)], radius,
+                         velocity=[-s * SPEED * d for d in OBLIQUE]) for s in (-1, 1)]
+        walls = {}
+    else:
+        velocity = {"approach of a wall": (0, 0, -SPEED), "slides along a wall": (SPEED, 0, 0)}.get(motion, (0, 0, 0))
+        spin = (0, SPEED / radius, 0) if motion == "turns at a wall" else (0, 0, 0)
+        solids = [sphere((x, y, radius + h), radius, velocity=velocity, angular_velocity=spin)]
+        walls = {"boundaries": {"z": {"min": {"type": "noSlip"}, "max": {"type": "noSlip"}}}}
+    result = lbm(stokes([n] * 3, solids, TAU, steady=1e-4, lubrication=lubrication, **walls))
+    one = result["solids"][0]
+    unit = 6 * math.pi * radius * SPEED
+    value = {
+        "two spheres approach": -sum(f * d for f, d in zip(one["force"], OBLIQUE)) / unit,
+        "approach of a wall": one["force"][2] / unit,
+        "slides along a wall": -one["force"][0] / unit,
+        "turns at a wall": -one["torque"][1] * 6 / (8 * radius * unit),
+    }[motion]
+    return {"load": abs(value), "cells": result["cells"], "steps": result["steps"]}
+
+
+def runs(quick):
+    for motion in MOTIONS:
+        for radius in (4,) if quick else (4, 6):
+            for offset in offsets(1 if quick or radius > 4 else 3):
+                for lubrication in (False, True):
+                    for gap in GAPS:
+                        if gap * radius > WIDE and not lubrication and gap < 0.5:
+                            continue
+                        arguments = {"motion": motion, "radius": radius, "gap": gap, "offset": offset, "lubrication": lubrication}
+                        yield Run(load, arguments, (8 * math.ceil(1.2 * radius)) ** 3 * 2500 / 1e9)
+
+
+def curves(results):
+    """Errors against the gap: {(motion, radius, lubrication): [(gap in cells, [error for each offset])]}.
+
+    The box changes all loads of a curve by nearly the same, which is taken from the gaps that are resolved.
+    """
+    found = {}
+    for (motion, radius, lubrication), group in groups(results, "motion", "radius", "lubrication").items():
+        errors = {}
+        for _, curve in groups([{**r.arguments, **r.values, "at": str(r["offset"])} for r in group], "at").items():
+            wide = [exact(motion, r["gap"]) - r["load"] for r in curve if r["gap"] * radius > WIDE]
+            if not wide:
+                continue
+            box = sum(wide) / len(wide)
+            for r in curve:
+                errors.setdefault(r["gap"] * radius, []).append((r["load"] + box) / exact(motion, r["gap"]) - 1)
+        found[motion, radius, lubrication] = sorted(errors.items())
+    return found
+
+
+def rows(results):
+    found = []
+    for (motion, radius, lubrication), curve in curves(results).items():
+        chosen = [e for gap, errors in curve if lubrication or gap > 1.99 for e in errors]
+        if not chosen:
+            continue
+        worst = max(chosen, key=abs)
+        target = MOTIONS[motion][2] if lubrication else 0.02
+        which = "0.01 a to a, corrected" if lubrication else "gaps above 2 cells, not corrected"
+        found.append(Row(f"{motion}, {which}", f"R = {radius}", f"{TAU:g}", worst, target))
+    return found
+
+
+def text(results):
+    lines = []
+    for (motion, radius, lubrication), curve in curves(results).items():
+        mean = {gap: sum(errors) / len(errors) for gap, errors in curve}
+        lines.append((motion, radius, "on" if lubrication else "off",
+                      *(percent(mean[g * radius]) if g * radius in mean else "" for g in GAPS)))
+    return f"""
+Mean error over the offsets, at gaps in radii:
+
+{table(("", "R", "lubrication", *(f"{g:g}" for g in GAPS)), lines)}
+"""
+
+
+def figures(results):
+    def draw(canvas):
+        axes = canvas.subplots(1, 2)
+        for (motion, radius, lubrication), curve in curves(results).items():
+            i = list(MOTIONS).index(motion)
+            axes[lubrication].semilogx([gap for gap, _ in curve], [100 * sum(e) / len(e) for _, e in curve], lw=1,
+                                       color=COLOURS[i], marker=MARKERS[radius // 2 - 2], label=f"{motion}, R = {radius}")
+        for axis, title in zip(axes, ("lattice alone", "with films")):
+            axis.set(xlabel="gap [cells]", ylabel="error of the load [%]", title=title)
+        axes[1].set_ylim(-6, 6)
+        axes[1].legend(fontsize=6)
+
+    return [Figure("lubrication", "Error of loads in narrow gaps, without and with what films add.", draw, (9.0, 4.2))]
+
+
+LUBRICATION = Case(
+    name="lubrication",
+    title="Narrow gaps",
+    solved="""
+Steady Stokes loads on spheres at rest in place with a prescribed velocity or spin, with and without `lubrication`, at gaps from one radius to 0.01: two spheres along an oblique
+line, one sphere at a no-slip face. The periodic box (9.6 radii wide) changes a load by nearly the same at all gaps; this constant is taken from gaps above 2.4 cells.""",
+    reference="`06_lubrication_normal.csv` and `06_lubrication_tangential.csv`: exact bispherical series.",
+    runs=lambda quick: list(runs(quick)),
+    rows=rows,
+    text=text,
+    figures=figures,
+)
