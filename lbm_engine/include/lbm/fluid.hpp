@@ -21,6 +21,15 @@ struct StepTimes {
 };
 
 /**
+ * Mean stress in the box, by what carries it. Tension is positive; [a][b] is the force along a on planes with normal b. Pressures are in excess of
+ * hydrostatic and drive.
+ */
+struct StressParts {
+    Mat3 fluid{};   ///< pressure, viscous stress and momentum of all cells [Pa]
+    Mat3 solids{};  ///< first moments of the forces on the solids (stresslets and torques) per volume [Pa]
+};
+
+/**
  * A box of viscous fluid with rigid solids in it: D3Q19 or D3Q27, two relaxation times, viscosity-exact partially saturated cells.
  *
  * A coupled step reads: `place_solids` (where they are now), `step`, `loads` (what to apply until the next step).
@@ -97,7 +106,9 @@ public:
      * In each step without films, with faces F, drive a and loads on the solids: total_momentum changes by density * acceleration * V_box - sum F (before the step) -
      * loads (of the step, without buoyancy).
      */
-    Vec3 boundary_force(Face face) const;   ///< [N]
+    Vec3 boundary_force(Face face) const;  ///< [N]
+    /// In steady motion the sum of its parts is the mean stress on the faces: of a solid that does not turn freely, with its torque.
+    StressParts stress() const;
     double kinetic_energy() const;          ///< of the fluid outside the solids [J]
     double mean_density_deviation() const;  ///< relative to `density` [-]
 

@@ -46,9 +46,10 @@ struct Solid {
  * the loads in a periodic bed at rest add up to rho_f * acceleration * (volume of the box).
  */
 struct SolidLoad {
-    Vec3 force{};      ///< [N]
-    Vec3 torque{};     ///< about the solid's centre [N m]
-    Mat3 stresslet{};  ///< symmetric, traceless first moment of the surface traction [N m]
+    Vec3 force{};                 ///< [N]
+    Vec3 torque{};                ///< about the solid's centre [N m]
+    Mat3 stresslet{};             ///< symmetric, traceless first moment of the surface traction [N m]
+    double isotropic_moment = 0;  ///< a third of the trace of that moment [N m]
 };
 
 }  // namespace lbm

@@ -368,6 +368,7 @@ SolidLoad Fluid::Implementation::load_in_si(std::size_t s, const LoadLedger::Loa
     for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b)
             si.stresslet[a][b] = -units.torque * (0.5 * (m[a][b] + m[b][a]) - (a == b ? third : 0));
+    si.isotropic_moment = -units.torque * third;
     return si;
 }
 

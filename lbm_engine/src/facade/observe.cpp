@@ -1,4 +1,5 @@
 #include "facade/implementation.hpp"
+#include "fields/momentum_flux.hpp"
 #include "lattice/message.hpp"
 #include "output/vtk.hpp"
 
@@ -67,6 +68,25 @@ Vec3 Fluid::total_momentum() const
     Vec3 sum = fluid.sum_cells<Vec3>([](const CellState& cell) { return cell.momentum; });
     for (const LoadLedger& ledger : fluid.ledgers) sum += ledger.outstanding() - ledger.momentum;
     return fluid.units.momentum * sum;
+}
+
+StressParts Fluid::stress() const
+{
+    const auto& fluid = *implementation_;
+    const ThreadCount threads(config().threads);
+    const Mat3 flux = std::visit([](const auto& f) { return momentum_flux(f); }, fluid.populations);
+    StressParts stress;
+    for (int a = 0; a < 3; ++a) stress.fluid[a] = (-fluid.units.pressure / fluid.cell_count()) * flux[a];
+    const double volume = fluid.cell_count() * std::pow(config().dx, 3);
+    for (const SolidLoad& load : fluid.loads)
+        for (int a = 0; a < 3; ++a) {
+            const int b = (a + 1) % 3, c = (a + 2) % 3;
+            stress.solids[a] += (1 / volume) * load.stresslet[a];
+            stress.solids[a][a] += load.isotropic_moment / volume;
+            stress.solids[c][b] += 0.5 * load.torque[a] / volume;
+            stress.solids[b][c] -= 0.5 * load.torque[a] / volume;
+        }
+    return stress;
 }
 
 double Fluid::kinetic_energy() const
