@@ -69,6 +69,7 @@ public:
     lbm::Vec3 boundary_force(int face) const;
     double total_mass() const;
     lbm::Vec3 total_momentum() const;
+    lbm::StressParts stress() const;
     double kinetic_energy() const;
     std::vector<double> velocity_field() const;
     std::vector<double> pressure_field() const;

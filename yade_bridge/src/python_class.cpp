@@ -70,6 +70,19 @@ bp::tuple cells_tuple(const LbmEngine& engine)
     return bp::make_tuple(cells[0], cells[1], cells[2]);
 }
 
+bp::dict stress(const LbmEngine& engine)
+{
+    const lbm::StressParts parts = engine.stress();
+    const Settings& s = engine.settings();
+    const double volume = (s.upper[0] - s.lower[0]) * (s.upper[1] - s.lower[1]) * (s.upper[2] - s.lower[2]);
+    bp::dict result;
+    result["fluid"] = to_python(parts.fluid);
+    result["particles"] = to_python(parts.solids);
+    result["contacts"] = bp::import("yade.utils").attr("getStress")(volume);
+    result["total"] = result["fluid"] + result["particles"] + result["contacts"];
+    return result;
+}
+
 using PythonClass =
     bp::class_<LbmEngine, boost::shared_ptr<LbmEngine>, bp::bases<yade::GlobalEngine>, boost::noncopyable>;
 
@@ -158,6 +171,12 @@ void define_queries(PythonClass& python_class)
             "Momentum of the fluid and what is on its way to the grains [kg m/s], at the end of a step: the sum with "
             "the "
             "grains' own m v changes by drive, weight, walls and other engines only.")
+        .def(
+            "stress", &stress,
+            "Mean stress in the fluid's box [Pa], tension positive, as a dict of matrices: 'fluid' (pressure, viscous "
+            "stress and momentum of all cells), 'particles' (first moments of the fluid's forces on the solids), "
+            "'contacts' (utils.getStress over the volume of the box), and their 'total'. In a steady flow the total is "
+            "the stress on the faces.")
         .def("kineticEnergy", &LbmEngine::kinetic_energy, "Kinetic energy of the fluid outside the solids [J].")
         .def("saveVtk", &LbmEngine::save_vtk,
              "Writes velocity, pressure and solid fraction as VTK image data (.vti) that ParaView opens.")

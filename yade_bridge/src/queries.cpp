@@ -96,6 +96,12 @@ lbm::Vec3 LbmEngine::total_momentum() const
     return momentum;
 }
 
+lbm::StressParts LbmEngine::stress() const
+{
+    const std::lock_guard lock(mutex_);
+    return fluid("stress").stress();
+}
+
 double LbmEngine::kinetic_energy() const
 {
     const std::lock_guard lock(mutex_);
