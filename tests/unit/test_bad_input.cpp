@@ -20,6 +20,7 @@ class BadInput : public CppUnit::TestFixture {
     CPPUNIT_TEST(configuration_names_the_value_and_the_rule);
     CPPUNIT_TEST(solids_are_named_by_their_id);
     CPPUNIT_TEST(a_refused_placement_leaves_the_fluid_as_it_was);
+    CPPUNIT_TEST(a_surface_that_is_too_fast_stops_before_the_step);
     CPPUNIT_TEST(divergence_and_mach_limit_end_the_run_with_place_and_time);
     CPPUNIT_TEST(positions_outside_the_box_are_refused);
     CPPUNIT_TEST(unwritable_files_are_reported);
@@ -124,7 +125,37 @@ class BadInput : public CppUnit::TestFixture {
         assert_says(says<RunError>(run), "at step ");
         c.max_mach = 1e9;
         c.acceleration = {1, 0, 0};
+        assert_says(says<RunError>(run), "the density is off by ");
+        assert_says(says<RunError>(run), "above the limit of 50 %");
+        c.acceleration = {1e200, 0, 0};
         assert_says(says<RunError>(run), "diverged at step ");
+    }
+
+    void a_surface_that_is_too_fast_stops_before_the_step()
+    {
+        Fluid fluid(test::lattice_config({12, 12, 12}, 0.8));
+        Solid s;
+        s.id = 17;
+        s.radius = 3;
+        s.position = {6, 6, 6};
+        s.velocity = {0.03, 0, 0.03};
+        s.angular_velocity = {0, 0.03, 0};  // with the velocity 0.042 + 0.09 cells per step, Mach 0.23
+        fluid.place_solids({s});
+        const auto before = fluid.velocity_field();
+        const auto message = says<RunError>([&] { fluid.step(); });
+        assert_says(message, "solid 17 at (6, 6, 6) before step 1 (t = 0 s): its surface moves at 0.1324264 m/s");
+        assert_says(message, "Mach number 0.2293693 is above the limit 0.2");
+        CPPUNIT_ASSERT(before == fluid.velocity_field());
+        s.angular_velocity = {0.04, 0, 0.04};  // along the velocity: the speeds add up as squares, Mach 0.3
+        s.velocity = {0.02, 0, 0.02};
+        fluid.place_solids({s});
+        assert_says(says<RunError>([&] { fluid.step(); }), "Mach number 0.2979");
+        s.position = {-60, 6, 6};  // not in the fluid
+        FluidConfig c = test::lattice_config({12, 12, 12}, 0.8);
+        test::walls(c, 0);
+        Fluid walled(c);
+        walled.place_solids({s});
+        walled.step();
     }
 
     void positions_outside_the_box_are_refused()

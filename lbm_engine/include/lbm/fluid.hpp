@@ -60,7 +60,8 @@ public:
 
     /**
      * One fluid step of length dt().
-     * @throws RunError  if the flow diverged or went beyond the Mach limit, with where and when
+     * @throws RunError  with where and when: if a surface in the box moves beyond the Mach limit (the flow is untouched then), or if the flow
+     *         diverged, went beyond that limit or has a density that is off by more than kMaxDensityDeviation
      */
     void step();
 

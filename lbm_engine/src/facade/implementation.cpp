@@ -256,13 +256,13 @@ void Fluid::Implementation::step()
         [&](auto& f) {
             auto* const slots = f.data();
             const auto x_faces = [&, to_odd = !f.odd](int y, int z) { faces.stream_row(slots, y, z, to_odd); };
-            const SpeedWatch speeds = sweep(f, collision, config.inertia, map, x_faces);
+            const FlowWatch flow = sweep(f, collision, config.inertia, map, x_faces);
             times.collide_stream += watch_time.lap();
             faces.stream(f.data(), f.odd);
             times.exchange += watch_time.lap();
             ++steps;
-            watch(speeds);
-            max_speed2 = speeds.max2;
+            watch(flow);
+            max_speed2 = flow.max2;
         },
         populations);
     watch_time.lap();
@@ -393,14 +393,15 @@ void Fluid::Implementation::watch_surfaces() const
     }
 }
 
-void Fluid::Implementation::watch(const SpeedWatch& speeds) const
+void Fluid::Implementation::watch(const FlowWatch& flow) const
 {
     const double limit = config.max_mach * kSpeedOfSound;
-    const bool diverged = !std::isfinite(speeds.sum2);
-    if (!diverged && speeds.max2 <= limit * limit) return;
+    const bool diverged = !std::isfinite(flow.sum2);
+    const bool too_fast = flow.max2 > limit * limit;
+    if (!diverged && !too_fast && flow.drho2 <= kMaxDensityDeviation * kMaxDensityDeviation) return;
 
     std::ptrdiff_t where = -1;
-    double worst = -1;
+    double worst = -1, drho = 0;
     std::visit(
         [&]<class L, class T>(const Populations<L, T>& f) {
             const auto [nx, ny, nz] = f.layout.n;
@@ -409,24 +410,34 @@ void Fluid::Implementation::watch(const SpeedWatch& speeds) const
                 f.outgoing(static_cast<int>(cell % nx), static_cast<int>(cell / nx % ny),
                            static_cast<int>(cell / nx / ny), p);
                 const Moments<double> m = moments<L>(p);
-                double speed2 = (m.j[0] * m.j[0] + m.j[1] * m.j[1] + m.j[2] * m.j[2]) / ((1 + m.drho) * (1 + m.drho));
-                if (!std::isfinite(speed2)) speed2 = std::numeric_limits<double>::max();
-                if (speed2 > worst) {
-                    worst = speed2;
+                double bad = diverged || too_fast ? dot({m.j[0], m.j[1], m.j[2]}, {m.j[0], m.j[1], m.j[2]}) /
+                                                        ((1 + m.drho) * (1 + m.drho))
+                                                  : std::abs(m.drho);
+                if (!std::isfinite(bad)) bad = std::numeric_limits<double>::max();
+                if (bad > worst) {
+                    worst = bad;
+                    drho = m.drho;
                     where = cell;
                 }
             }
         },
         populations);
     const auto [nx, ny, nz] = config.cells;
-    const auto place = message("at step ", steps, " (t = ", time(), " s), cell (", where % nx, ", ", where / nx % ny,
-                               ", ", where / nx / ny, ")");
+    const std::ptrdiff_t at[3] = {where % nx, where / nx % ny, where / nx / ny};
+    const auto in_metres = [&](int d) { return config.lower[d] + (static_cast<double>(at[d]) + 0.5) * config.dx; };
+    const auto place = message("at step ", steps, " (t = ", time(), " s), cell (", at[0], ", ", at[1], ", ", at[2],
+                               ") at (", in_metres(0), ", ", in_metres(1), ", ", in_metres(2), ") m");
     if (diverged)
         throw RunError(message("the fluid diverged ", place,
                                ": use a smaller time step of the fluid or more cells, or keep tau above 0.52"));
-    throw RunError(message("Mach number ", std::sqrt(speeds.max2) / kSpeedOfSound, " ", place, " is above the limit ",
-                           config.max_mach, ": the speed of ", std::sqrt(speeds.max2) * units.velocity,
-                           " m/s needs a fluid step (now ", dt, " s) smaller by that ratio"));
+    if (too_fast)
+        throw RunError(message("Mach number ", std::sqrt(flow.max2) / kSpeedOfSound, " ", place, " is above the limit ",
+                               config.max_mach, ": the speed of ", std::sqrt(flow.max2) * units.velocity,
+                               " m/s needs a fluid step (now ", dt, " s) smaller by that ratio"));
+    throw RunError(message("the density is off by ", 100 * drho, " % ", place, ", a pressure of ",
+                           drho / 3 * units.pressure, " Pa: above the limit of ", 100 * kMaxDensityDeviation,
+                           " % the fluid is not nearly incompressible; use a smaller time step of the fluid (now ", dt,
+                           " s), or let fluid leave a box that is filled"));
 }
 
 }  // namespace lbm

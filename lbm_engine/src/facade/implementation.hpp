@@ -81,7 +81,7 @@ struct Fluid::Implementation {
     void settle_loads();
     void add_film_loads();
     SolidLoad load_in_si(std::size_t s, const LoadLedger::Load& load, const SolidSums& sums) const;
-    void watch(const SpeedWatch& speeds) const;
+    void watch(const FlowWatch& flow) const;
     void watch_surfaces() const;
     LatticeSolid in_lattice_units(const Solid& solid) const;
     Solid in_mid_step(const Solid& solid, const Motion& last) const;

@@ -5,18 +5,18 @@
 namespace lbm {
 
 template <class L, class T>
-SpeedWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
-                 const std::function<void(int, int)>& after_row)
+FlowWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
+                const std::function<void(int, int)>& after_row)
 {
     static const SweepRows<L, T> variants = sweep_rows<L, T>();
     const SweepRow<L, T> sweep_row = inertia ? variants.inertia : variants.stokes;
     const Layout<L>& layout = populations.layout;
     const int nx = layout.n[0], ny = layout.n[1], nz = layout.n[2];
-    double max2 = 0, sum2 = 0;
-#pragma omp parallel reduction(max : max2) reduction(+ : sum2)
+    FlowWatch all;
+#pragma omp parallel
     {
         RowSaturation cells(nx);
-        SpeedWatch watch;
+        FlowWatch watch;
 #pragma omp for schedule(static)
         for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(ny) * nz; ++row) {
             const int y = static_cast<int>(row % ny), z = static_cast<int>(row / ny);
@@ -32,11 +32,11 @@ SpeedWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, b
             }
             after_row(y, z);
         }
-        max2 = watch.max2;
-        sum2 = watch.sum2;
+#pragma omp critical
+        all.see(watch);
     }
     populations.odd = !populations.odd;
-    return {max2, sum2};
+    return all;
 }
 
 template <class L, class T>
@@ -62,8 +62,8 @@ void sum_inside(const Populations<L, T>& populations, const CollisionParameters&
 }
 
 #define LBM_SWEEP(L, T)                                                                                                \
-    template SpeedWatch sweep(Populations<L, T>&, const CollisionParameters&, bool, SolidMap&,                         \
-                              const std::function<void(int, int)>&);                                                   \
+    template FlowWatch sweep(Populations<L, T>&, const CollisionParameters&, bool, SolidMap&,                          \
+                             const std::function<void(int, int)>&);                                                    \
     template void sum_inside(const Populations<L, T>&, const CollisionParameters&, bool, SolidMap&, Vec3 CellState::*);
 LBM_SWEEP(D3Q19, double)
 LBM_SWEEP(D3Q19, float)

@@ -16,8 +16,8 @@ namespace lbm {
  * @param after_row  called as after_row(y, z) when a row has made its step; rows in any order, by any thread
  */
 template <class L, class T>
-SpeedWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
-                 const std::function<void(int, int)>& after_row);
+FlowWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
+                const std::function<void(int, int)>& after_row);
 
 /// The state of a cell between two steps, in lattice units.
 struct CellState {

@@ -6,7 +6,7 @@ namespace lbm {
     namespace isa {                                                                                                    \
     template <class L, bool inertia, class T>                                                                          \
     void sweep_row(T*, const Slot (&)[L::Q], int, Slot, const CollisionParameters&, RowSaturation*,                    \
-                   SpeedWatch&) noexcept;                                                                              \
+                   FlowWatch&) noexcept;                                                                               \
     }
 LBM_DECLARE(portable)
 #ifdef LBM_X86_KERNELS

@@ -6,10 +6,18 @@
 
 namespace lbm {
 
-/// What the sweep sees of the speeds on its way: for the watchdog.
-struct SpeedWatch {
-    double max2 = 0;  ///< largest u^2
-    double sum2 = 0;  ///< sum of u^2; not finite if any population is not
+/// What the sweep sees of speeds and densities on its way: for the watchdog.
+struct FlowWatch {
+    double max2 = 0;   ///< largest u^2
+    double sum2 = 0;   ///< sum of u^2; not finite if any population is not
+    double drho2 = 0;  ///< largest (rho - 1)^2
+
+    void see(const FlowWatch& other)
+    {
+        max2 = other.max2 > max2 ? other.max2 : max2;
+        sum2 += other.sum2;
+        drho2 = other.drho2 > drho2 ? other.drho2 : drho2;
+    }
 };
 
 /**
@@ -22,7 +30,7 @@ struct SpeedWatch {
  */
 template <class L, class T>
 using SweepRow = void (*)(T* f, const Slot (&slot)[L::Q], int nx, Slot ahead, const CollisionParameters& p,
-                          RowSaturation* cells, SpeedWatch& watch) noexcept;
+                          RowSaturation* cells, FlowWatch& watch) noexcept;
 
 template <class L, class T>
 struct SweepRows {

@@ -10,11 +10,13 @@ namespace {
 
 template <int W>
 struct WatchPack {
-    Pack<W> max2{}, sum2{};
-    [[gnu::always_inline]] void see(const Pack<W>& u2)
+    Pack<W> max2{}, sum2{}, drho2{};
+    [[gnu::always_inline]] void see(const Seen<Pack<W>>& cells)
     {
-        max2 = u2 > max2 ? u2 : max2;
-        sum2 += u2;
+        max2 = cells.u2 > max2 ? cells.u2 : max2;
+        sum2 += cells.u2;
+        const Pack<W> squared = cells.drho * cells.drho;
+        drho2 = squared > drho2 ? squared : drho2;
     }
 };
 
@@ -75,21 +77,17 @@ template <class L, bool inertia, int W, class T>
 }
 
 template <class V>
-void note(const V& pack, int lanes, SpeedWatch& watch)
+void note(const V& pack, int lanes, FlowWatch& watch)
 {
-    const double* max2 = reinterpret_cast<const double*>(&pack.max2);
-    const double* sum2 = reinterpret_cast<const double*>(&pack.sum2);
-    for (int l = 0; l < lanes; ++l) {
-        watch.max2 = max2[l] > watch.max2 ? max2[l] : watch.max2;
-        watch.sum2 += sum2[l];
-    }
+    const auto lane = [](const auto& of, int l) { return reinterpret_cast<const double*>(&of)[l]; };
+    for (int l = 0; l < lanes; ++l) watch.see({lane(pack.max2, l), lane(pack.sum2, l), lane(pack.drho2, l)});
 }
 
 /// Cells from x to end, W at a time as long as they last, then fewer at a time.
 template <class L, bool inertia, int W, class T>
 [[gnu::always_inline]] inline void sweep_cells(T* const (&p)[L::Q], int x, int end, Slot ahead,
                                                const CollisionParameters& parameters, RowSaturation* cells,
-                                               SpeedWatch& watch)
+                                               FlowWatch& watch)
 {
     WatchPack<W> pack;
     if (!cells) {
@@ -109,7 +107,7 @@ template <class L, bool inertia, int W, class T>
 
 template <class L, bool inertia, class T>
 void sweep_row(T* f, const Slot (&slot)[L::Q], int nx, Slot ahead, const CollisionParameters& parameters,
-               RowSaturation* cells, SpeedWatch& watch) noexcept
+               RowSaturation* cells, FlowWatch& watch) noexcept
 {
     T* p[L::Q];
     for (int i = 0; i < L::Q; ++i) p[i] = f + slot[i];
@@ -119,7 +117,7 @@ void sweep_row(T* f, const Slot (&slot)[L::Q], int nx, Slot ahead, const Collisi
 
 #define LBM_SWEEP_ROW(L, inertia, T)                                                                                   \
     template void sweep_row<L, inertia, T>(T*, const Slot(&)[L::Q], int, Slot, const CollisionParameters&,             \
-                                           RowSaturation*, SpeedWatch&) noexcept;
+                                           RowSaturation*, FlowWatch&) noexcept;
 LBM_SWEEP_ROW(D3Q19, true, double)
 LBM_SWEEP_ROW(D3Q19, false, double)
 LBM_SWEEP_ROW(D3Q19, true, float)

@@ -18,6 +18,13 @@ struct CollisionParameters {
     Scheme scheme = Scheme::exact;
 };
 
+/// What the watchdog sees of a cell.
+template <class V>
+struct Seen {
+    V u2;    ///< square of the velocity
+    V drho;  ///< rho - 1
+};
+
 template <class V>
 struct Moments {
     V drho;  ///< rho - 1
@@ -113,10 +120,9 @@ template <bool inertia, class V>
 
 /**
  * One TRT collision of fluid.
- * @return u^2, the square of the velocity
  */
 template <class L, bool inertia, class V>
-[[gnu::always_inline]] inline V collide_fluid(V (&f)[L::Q], const CollisionParameters& p)
+[[gnu::always_inline]] inline Seen<V> collide_fluid(V (&f)[L::Q], const CollisionParameters& p)
 {
     const double omega_plus = p.rates.omega_plus, omega_minus = p.rates.omega_minus;
     const Moments<V> m = moments<L>(f);
@@ -132,7 +138,7 @@ template <class L, bool inertia, class V>
     }
     const V even_0 = even_sources<inertia>(omega_plus, m.drho, u, force, even_2);
     relax<L, inertia>(f, omega_plus, omega_minus, even_0, u, even_2, odd);
-    return u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+    return {u[0] * u[0] + u[1] * u[1] + u[2] * u[2], m.drho};
 }
 
 /// What a partially saturated cell is told about its solids.
@@ -168,11 +174,11 @@ template <class V>
  *     u    = (sum f c + m F / 2) / rho
  *     F_s  = kk rho (u_s - u),   u_phys = u + F_s / (2 rho)
  *
- * @return u_phys^2
+ * @return with u_phys
  */
 template <class L, bool inertia, class V>
-[[gnu::always_inline]] inline V collide_saturated(V (&f)[L::Q], const CollisionParameters& p, const Saturation<V>& s,
-                                                  Exchange<V>& out)
+[[gnu::always_inline]] inline Seen<V> collide_saturated(V (&f)[L::Q], const CollisionParameters& p,
+                                                        const Saturation<V>& s, Exchange<V>& out)
 {
     const V m = 1 - s.epsilon;
     const V kLp = p.rates.Lp * s.strength;
@@ -199,7 +205,7 @@ template <class L, bool inertia, class V>
     }
     const V even_0 = even_sources<inertia>(p.rates.omega_plus, mo.drho, u, total_force, even_2);
     relax<L, inertia>(f, p.rates.omega_plus, omega_minus, even_0, u, even_2, odd);
-    return u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+    return {u[0] * u[0] + u[1] * u[1] + u[2] * u[2], mo.drho};
 }
 
 }  // namespace lbm

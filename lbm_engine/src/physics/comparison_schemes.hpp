@@ -44,11 +44,11 @@ template <class V>
 /**
  * One collision by a published operator.
  * @param bounces  whether cells with B = 1 turn all populations round
- * @return u^2
  */
 template <class L, bool inertia, class V>
-[[gnu::always_inline]] inline V collide_published(V (&f)[L::Q], const CollisionParameters& p, const V (&u_s)[3],
-                                                  const PublishedWeight<V>& weight, bool bounces, Exchange<V>& out)
+[[gnu::always_inline]] inline Seen<V> collide_published(V (&f)[L::Q], const CollisionParameters& p, const V (&u_s)[3],
+                                                        const PublishedWeight<V>& weight, bool bounces,
+                                                        Exchange<V>& out)
 {
     const Moments<V> mo = moments<L>(f);
     const V rho = inertia ? 1 + mo.drho : V{} + 1.0;
@@ -88,13 +88,13 @@ template <class L, bool inertia, class V>
         f[a] = even + odd;
         f[b] = even - odd;
     });
-    return u2;
+    return {u2, mo.drho};
 }
 
 /// The collision of cells with solids in them, by the scheme of the parameters. This is the one place that chooses.
 template <class L, bool inertia, class V>
-[[gnu::always_inline]] inline V collide_with_solids(V (&f)[L::Q], const CollisionParameters& p, const Saturation<V>& s,
-                                                    Exchange<V>& out)
+[[gnu::always_inline]] inline Seen<V> collide_with_solids(V (&f)[L::Q], const CollisionParameters& p,
+                                                          const Saturation<V>& s, Exchange<V>& out)
 {
     if (p.scheme == Scheme::exact) return collide_saturated<L, inertia>(f, p, s, out);
     return collide_published<L, inertia>(f, p, s.u_s, published_weight(p, s.epsilon), p.scheme == Scheme::bounce_back,
@@ -107,14 +107,15 @@ template <class L, bool inertia, class V>
  * @param bounce  1 in the solid's cells, 0 elsewhere
  */
 template <class L, bool inertia, class V>
-[[gnu::always_inline]] inline V collide_beside_wall(V (&f)[L::Q], const CollisionParameters& p, const Saturation<V>& s,
-                                                    const V& bounce, Exchange<V>& out)
+[[gnu::always_inline]] inline Seen<V> collide_beside_wall(V (&f)[L::Q], const CollisionParameters& p,
+                                                          const Saturation<V>& s, const V& bounce, Exchange<V>& out)
 {
     V turned[L::Q];
     for (int i = 0; i < L::Q; ++i) turned[i] = f[i];
     Exchange<V> of_wall;
-    const V wall_u2 = collide_published<L, inertia>(turned, p, s.u_s, {bounce, 1 - bounce, 2 * bounce}, true, of_wall);
-    const V u2 = collide_with_solids<L, inertia>(f, p, s, out);
+    const Seen<V> wall =
+        collide_published<L, inertia>(turned, p, s.u_s, {bounce, 1 - bounce, 2 * bounce}, true, of_wall);
+    const Seen<V> other = collide_with_solids<L, inertia>(f, p, s, out);
     const auto is_wall = bounce > 0.5;
     for (int i = 0; i < L::Q; ++i) f[i] = is_wall ? turned[i] : f[i];
     for (int d = 0; d < 3; ++d) {
@@ -122,7 +123,7 @@ template <class L, bool inertia, class V>
         out.momentum[d] = is_wall ? of_wall.momentum[d] : out.momentum[d];
     }
     out.weight = is_wall ? of_wall.weight : out.weight;
-    return is_wall ? wall_u2 : u2;
+    return {is_wall ? wall.u2 : other.u2, is_wall ? wall.drho : other.drho};
 }
 
 }  // namespace lbm
