@@ -372,18 +372,21 @@ SolidLoad Fluid::Implementation::load_in_si(std::size_t s, const LoadLedger::Loa
     return si;
 }
 
+constexpr double kNothing = 1e-6;  // of a cell: the volume in the box is a difference and carries round-off
+
 /// Before the flow takes harm: no surface in the box may move faster than the flow may.
 void Fluid::Implementation::watch_surfaces() const
 {
     const double limit = config.max_mach * kSpeedOfSound * units.velocity;
     for (std::size_t s = 0; s < solids.size(); ++s) {
         const Solid& solid = solids[s];
-        const double spin = solid.radius * norm(solid.angular_velocity);
+        const double reach = solid.shape == Shape::box ? norm(solid.half_extents) : solid.radius;
+        const double spin = reach * norm(solid.angular_velocity);
         // |V + W x r| is largest where W x r has the direction of the part of V across W
         const double speed2 = dot(solid.velocity, solid.velocity);
         const double along = spin > 0 ? dot(solid.velocity, solid.angular_velocity) / norm(solid.angular_velocity) : 0;
         const double fastest = std::hypot(along, std::sqrt(std::max(0.0, speed2 - along * along)) + spin);
-        if (fastest <= limit || map.volume(s) == 0) continue;
+        if (fastest <= limit || map.volume(s) < kNothing) continue;
         const Vec3& at = solid.position;
         throw RunError(message("solid ", solid.id, " at (", at[0], ", ", at[1], ", ", at[2], ") before step ",
                                steps + 1, " (t = ", time(), " s): its surface moves at ", fastest, " m/s, ",
@@ -400,6 +403,8 @@ void Fluid::Implementation::watch(const FlowWatch& flow) const
     const bool too_fast = flow.max2 > limit * limit;
     if (!diverged && !too_fast && flow.drho2 <= kMaxDensityDeviation * kMaxDensityDeviation) return;
 
+    std::vector<double> fluid_fraction(static_cast<std::size_t>(cell_count()));
+    for_cells([&](const CellState& cell) { fluid_fraction[index(cell)] = 1 - cell.epsilon; });
     std::ptrdiff_t where = -1;
     double worst = -1, drho = 0;
     std::visit(
@@ -412,7 +417,7 @@ void Fluid::Implementation::watch(const FlowWatch& flow) const
                 const Moments<double> m = moments<L>(p);
                 double bad = diverged || too_fast ? dot({m.j[0], m.j[1], m.j[2]}, {m.j[0], m.j[1], m.j[2]}) /
                                                         ((1 + m.drho) * (1 + m.drho))
-                                                  : std::abs(m.drho);
+                                                  : std::abs(fluid_fraction[static_cast<std::size_t>(cell)] * m.drho);
                 if (!std::isfinite(bad)) bad = std::numeric_limits<double>::max();
                 if (bad > worst) {
                     worst = bad;

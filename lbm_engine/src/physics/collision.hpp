@@ -21,8 +21,9 @@ struct CollisionParameters {
 /// What the watchdog sees of a cell.
 template <class V>
 struct Seen {
-    V u2;    ///< square of the velocity
-    V drho;  ///< rho - 1
+    V u2;  ///< square of the velocity
+    /// (1 - eps) (rho - 1): what fills a solid may be compressed, where that moves into a wall of the box
+    V drho;
 };
 
 template <class V>
@@ -205,7 +206,7 @@ template <class L, bool inertia, class V>
     }
     const V even_0 = even_sources<inertia>(p.rates.omega_plus, mo.drho, u, total_force, even_2);
     relax<L, inertia>(f, p.rates.omega_plus, omega_minus, even_0, u, even_2, odd);
-    return {u[0] * u[0] + u[1] * u[1] + u[2] * u[2], mo.drho};
+    return {u[0] * u[0] + u[1] * u[1] + u[2] * u[2], m * mo.drho};
 }
 
 }  // namespace lbm

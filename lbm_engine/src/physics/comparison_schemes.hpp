@@ -88,7 +88,7 @@ template <class L, bool inertia, class V>
         f[a] = even + odd;
         f[b] = even - odd;
     });
-    return {u2, mo.drho};
+    return {u2, m * mo.drho};
 }
 
 /// The collision of cells with solids in them, by the scheme of the parameters. This is the one place that chooses.
