@@ -74,11 +74,11 @@ def runs(quick):
             fractions = (0.3, 0.5)
         for c in fractions:
             for diameter in (8, 16) if quick else (8, 12, 16, 24, 32):
-                if lattice == "FCC" and diameter > 24:
+                if lattice == "FCC" and diameter > 16:
                     continue
                 n = side(lattice, c, diameter)
                 tau = quick_tau(radius(lattice, c, n), c, exact_drag(lattice, c))
-                for offset in offsets(3 if quick else 8 if n <= 60 else 3):
+                for offset in offsets(3 if quick else 8 if n <= 48 else 2):
                     arguments = {"lattice": lattice, "c": c, "n": n, "offset": offset, "tau": tau}
                     yield Run(drag, arguments, cost(lattice, c, n, tau))
 
