@@ -1,5 +1,7 @@
 """All cases, in the order of the report."""
 
 from .arrays import ARRAYS
+from .channels import CHANNELS
+from .tau import TAU
 
-CASES = [ARRAYS]
+CASES = [CHANNELS, ARRAYS, TAU]

@@ -50,9 +50,9 @@ def yade(script, arguments):
         path = os.path.join(ROOT, "scripts", "validation", "scenes", script)
         done = subprocess.run([os.path.join(ROOT, "scripts", "yade"), "-n", "-x", "-j1", path, given, found],
                               stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
-                              env={**os.environ, **ONE_THREAD})
+                              env={**os.environ, **ONE_THREAD, "PYTHONPATH": os.path.dirname(path)})
         if not os.path.exists(found):
-            raise RunFailed(" / ".join((done.stdout + done.stderr).strip().splitlines()[-3:]))
+            raise RunFailed(((done.stdout + done.stderr).strip().splitlines() or ["no output"])[-1].replace(ROOT, ""))
         with open(found, encoding="utf-8") as file:
             return json.load(file)
 
