@@ -84,7 +84,8 @@ def pile(tau, n, diameter=8, box=(16, 16, 22)):
     for axis in range(3):
         O.bodies.append(utils.wall(0, axis=axis, sense=1, material=material))
         O.bodies.append(utils.wall(box[axis] * DX, axis=axis, sense=-1, material=material))
-    fluid = LbmEngine(upper=[c * DX for c in box], dx=DX, density=DENSITY, viscosity=VISCOSITY, tau=tau, gravity=(0, 0, -gravity))
+    fluid = LbmEngine(upper=[c * DX for c in box], dx=DX, density=DENSITY, viscosity=VISCOSITY, tau=tau, gravity=(0, 0, -gravity),
+                      lubrication=False)  # with films the grains creep together for much longer
     O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]),
                  InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
                                  [Law2_ScGeom_FrictPhys_CundallStrack()]),
@@ -116,8 +117,8 @@ def main():
     for name in options.study:
         rows = results[name] = []
         for tau, n in SETS:
-            if name == "pile" and n < 5:
-                continue  # contacts that ring with 0.7 per fluid step need some grain steps in it
+            if name == "pile" and (n < 5 or tau > 1.5):
+                continue  # with tau = 2 the weight compresses the fluid by 29 %, which the plan refuses; contacts that ring with 0.7 per fluid step need some grain steps in it
             rows.append(dict(tau=tau, n=n, **studies[name](tau, n)))
             print(name, json.dumps(rows[-1]), flush=True)
     if "settling" in results:
