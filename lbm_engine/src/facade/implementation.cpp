@@ -115,7 +115,7 @@ Fluid::Implementation::Implementation(const FluidConfig& c)
     , collision(collision_parameters(c, units))
     , populations(make_populations(c))
     , faces(std::visit([&](const auto& f) { return Faces(f.layout, lattice_faces(c, units), c.inertia); }, populations))
-    , map(c.cells, periodic_axes(c), Weighting(c.lattice, magic_parameter(c)), c.scheme == Scheme::bounce_back)
+    , map(c.cells, periodic_axes(c), Weighting(c.lattice, magic_parameter(c)))
     , films(c.cells, periodic_axes(c), c.lubrication_roughness)
 {
     start_at(mean_face_pressure(lattice_faces(c, units)));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "physics/collision.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -13,20 +15,19 @@ inline constexpr int kBlock = 8;
 constexpr std::size_t padded_to_blocks(std::size_t n) { return (n + kBlock - 1) / kBlock * kBlock; }
 
 /**
- * One row of cells as the saturated collision sees it: what the solids say to the cells, and what the cells answer.
+ * One row of cells as the solids see it: sums of what they say to the cells, and what the cells answer, per fraction: a solid takes eps_i times that.
  * One per thread; outside covered blocks the input is zero and the answers are finite and meaningless. A block more than the row
  * holds lets spans be worked on in whole blocks wherever they begin.
  */
 struct RowSaturation {
     enum Column {
-        kEpsilon,
-        kEpsilonSum,
-        kStrength,
-        kUs,
-        kBounce = kUs + 3,  ///< 1 in cells of solids that turn populations round
-        kForce,
-        kMomentum = kForce + 3,
-        kWeight = kMomentum + 3,
+        kFraction,                ///< sum of the solids' fractions; above 1 where they overlap
+        kStrength,                ///< sum k eps
+        kUs,                      ///< sum eps u_s
+        kBounce = kUs + 3,        ///< 1 in cells of solids that turn populations round
+        kForce,                   ///< F_s / sum eps
+        kMomentum = kForce + 3,   ///< eps j_post / sum eps
+        kWeight = kMomentum + 3,  ///< (1 - eps) kk rho / sum eps
         kColumns
     };
 
@@ -45,6 +46,28 @@ struct RowSaturation {
     std::size_t stride;
     std::vector<double> values;
     std::vector<std::uint8_t> covered;  ///< per block: a Cover
+};
+
+/// The saturation of cells, and what their answers are divided by, from the sums over the solids in them.
+template <class V>
+struct Mixture {
+    Saturation<V> saturation;
+    V per_fraction;  ///< 1 / sum eps; 1 without solids
+
+    /**
+     * Where solids overlap, fractions fill a cell at most once; velocity and strength are means weighted by them.
+     * @param whole_cells  cells are solid or fluid, whichever they are more (for bounce-back)
+     */
+    [[gnu::always_inline]] Mixture(const V& fraction, const V& strength, const V (&u)[3], bool whole_cells)
+    {
+        const V one = V{} + 1.0, zero = V{};
+        per_fraction = one / (fraction > 0 ? fraction : one);
+        const V epsilon = fraction < 1 ? fraction : one;
+        saturation.epsilon = epsilon;
+        saturation.strength = strength * (epsilon * per_fraction);
+        for (int d = 0; d < 3; ++d) saturation.u_s[d] = u[d] * per_fraction;
+        if (whole_cells) saturation.epsilon = epsilon >= 0.5 ? one : zero;
+    }
 };
 
 }  // namespace lbm

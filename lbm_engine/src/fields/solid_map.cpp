@@ -20,12 +20,10 @@ int wrap(int i, int n)
 
 }  // namespace
 
-SolidMap::SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const Weighting& weighting,
-                   bool whole_cells)
+SolidMap::SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const Weighting& weighting)
     : n_(cells)
     , periodic_(periodic)
     , weighting_(weighting)
-    , whole_cells_(whole_cells)
     , row_begin_(static_cast<std::size_t>(cells[1]) * cells[2] + 1, 0)
 {
 }
@@ -257,8 +255,8 @@ template <int W>
                                              const RowVelocity& v)
 {
     using C = RowSaturation;
-    double* const column[] = {cells.column(C::kEpsilonSum) + x, cells.column(C::kStrength) + x,
-                              cells.column(C::kUs) + x, cells.column(C::kUs + 1) + x, cells.column(C::kUs + 2) + x};
+    double* const column[] = {cells.column(C::kFraction) + x, cells.column(C::kStrength) + x, cells.column(C::kUs) + x,
+                              cells.column(C::kUs + 1) + x, cells.column(C::kUs + 2) + x};
     for (int i = 0; i < n; i += W) {
         const Pack<W> e = load<W>(eps + i), r = (rx + i) + lanes<W>();
         const Pack<W> term[] = {e, k * e, e * v.u0[0], e * (v.u0[1] + v.spin_y * r), e * (v.u0[2] + v.spin_z * r)};
@@ -283,25 +281,6 @@ void bounce(RowSaturation& cells, int x0, int n, int nx, const std::uint8_t* bou
     }
 }
 
-/// Where solids overlap the fractions fill the cell at most once; the mean velocity is weighted by them.
-LBM_EACH_ISA
-void normalise(RowSaturation& cells, bool whole_cells)
-{
-    using C = RowSaturation;
-    for (std::size_t b = 0; b < cells.covered.size(); ++b) {
-        if (!cells.covered[b]) continue;
-        const auto column = [&](int c) { return cells.column(c) + b * kBlock; };
-        const Pack<kBlock> sum = load<kBlock>(column(C::kEpsilonSum));
-        const Pack<kBlock> one = Pack<kBlock>{} + 1.0;
-        const Pack<kBlock> inverse = one / (sum > 0 ? sum : one);
-        const Pack<kBlock> epsilon = sum < 1 ? sum : one;
-        const Pack<kBlock> whole = epsilon >= 0.5 ? one : Pack<kBlock>{};
-        store<kBlock>(column(C::kEpsilon), whole_cells ? whole : epsilon);
-        store<kBlock>(column(C::kStrength), load<kBlock>(column(C::kStrength)) * (epsilon * inverse));
-        for (int d = 0; d < 3; ++d) store<kBlock>(column(C::kUs + d), load<kBlock>(column(C::kUs + d)) * inverse);
-    }
-}
-
 /// Adds the answers of n cells to the thirteen sums of a span, in the order of SpanSums: F, rx F, P, rx P (y and z), b, b rx^2.
 template <int W>
 [[gnu::always_inline]] inline void add_answers(const RowSaturation& cells, int x, int n, const double* eps, double rx,
@@ -312,26 +291,24 @@ template <int W>
     {
         return load<W>(cells.column(column) + x + i);
     };
-    const Pack<W> zero{}, one = zero + 1.0;
+    const Pack<W> zero{};
     Pack<W> F[3] = {zero, zero, zero}, xF[3] = {zero, zero, zero}, P[3] = {zero, zero, zero}, xPy = zero, xPz = zero,
             b = zero, bxx = zero;
     for (int i = 0; i < n; i += W) {
-        const Pack<W> sum = in(C::kEpsilonSum, i), epsilon = in(C::kEpsilon, i);
-        const Pack<W> share = load<W>(eps + i) / (sum > 0 ? sum : one);
-        const Pack<W> filled = share * epsilon, r = (rx + i) + lanes<W>();
+        const Pack<W> e = load<W>(eps + i), r = (rx + i) + lanes<W>();
 #pragma GCC unroll 3
         for (int d = 0; d < 3; ++d) {
-            const Pack<W> f = share * in(C::kForce + d, i);
+            const Pack<W> f = e * in(C::kForce + d, i);
             F[d] += f;
             xF[d] += r * f;
         }
-        const Pack<W> py = filled * in(C::kMomentum + 1, i), pz = filled * in(C::kMomentum + 2, i);
-        P[0] += filled * in(C::kMomentum, i);
+        const Pack<W> py = e * in(C::kMomentum + 1, i), pz = e * in(C::kMomentum + 2, i);
+        P[0] += e * in(C::kMomentum, i);
         P[1] += py;
         P[2] += pz;
         xPy += r * py;
         xPz += r * pz;
-        const Pack<W> w = share * (one - epsilon) * in(C::kWeight, i);
+        const Pack<W> w = e * in(C::kWeight, i);
         b += w;
         bxx += w * r * r;
     }
@@ -394,7 +371,6 @@ void SolidMap::saturate(std::size_t row, RowSaturation& cells) const
         }
         if (!solid.bounce.empty()) bounce(cells, x0, span.n, n_[0], solid.bounce.data() + span.fractions);
     }
-    normalise(cells, whole_cells_);
 }
 
 LBM_EACH_ISA
@@ -422,7 +398,7 @@ void SolidMap::clear(RowSaturation& cells) const
     for (std::size_t b = 0; b < cells.covered.size(); ++b) {
         if (!cells.covered[b]) continue;
         cells.covered[b] = 0;
-        for (int c = RowSaturation::kEpsilon; c < RowSaturation::kForce; ++c)
+        for (int c = RowSaturation::kFraction; c < RowSaturation::kForce; ++c)
             std::fill_n(cells.column(c) + b * kBlock, kBlock, 0.0);
     }
 }

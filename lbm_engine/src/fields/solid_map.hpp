@@ -42,12 +42,8 @@ struct SolidSums {
  */
 class SolidMap {
 public:
-    /**
-     * @param periodic     for each axis
-     * @param whole_cells  cells count as solid or fluid, whichever they are more (for bounce-back)
-     */
-    SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const Weighting& weighting,
-             bool whole_cells);
+    /// @param periodic  for each axis
+    SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const Weighting& weighting);
 
     std::size_t size() const noexcept { return solids_.size(); }
     const LatticeSolid& solid(std::size_t s) const noexcept { return solids_[s].solid; }
@@ -109,7 +105,6 @@ private:
     std::array<int, 3> n_;
     std::array<bool, 3> periodic_;
     Weighting weighting_;
-    bool whole_cells_;
     std::vector<MappedSolid> solids_;
     std::vector<std::uint32_t> row_begin_;  // (ny * nz + 1)
     std::vector<std::uint32_t> row_next_;   // while sorting

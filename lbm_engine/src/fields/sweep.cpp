@@ -53,7 +53,10 @@ void sum_inside(const Populations<L, T>& populations, const CollisionParameters&
             solids.saturate(row, cells);
             std::fill(cells.column(RowSaturation::kForce), cells.column(RowSaturation::kColumns), 0.0);
             const auto answer = [&](const CellState& cell) {
-                for (int d = 0; d < 3; ++d) cells.column(RowSaturation::kMomentum + d)[cell.x] = (cell.*momentum)[d];
+                const double fraction = cells.column(RowSaturation::kFraction)[cell.x];
+                const double filled = fraction > 0 ? cell.epsilon / fraction : 0;
+                for (int d = 0; d < 3; ++d)
+                    cells.column(RowSaturation::kMomentum + d)[cell.x] = filled * (cell.*momentum)[d];
             };
             read_row(populations, p, inertia, static_cast<int>(row % ny), static_cast<int>(row / ny), cells, answer);
             solids.collect(row, cells);

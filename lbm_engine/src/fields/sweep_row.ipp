@@ -62,17 +62,20 @@ template <class L, bool inertia, int W, class T>
         store<W>(cells.column(column) + x, v);
     };
     using C = RowSaturation;
-    const Saturation<Pack<W>> saturation{
-        read(C::kEpsilon), read(C::kStrength), {read(C::kUs), read(C::kUs + 1), read(C::kUs + 2)}};
+    const Mixture<Pack<W>> solids(read(C::kFraction), read(C::kStrength),
+                                  {read(C::kUs), read(C::kUs + 1), read(C::kUs + 2)},
+                                  parameters.scheme == Scheme::bounce_back);
+    const Saturation<Pack<W>>& saturation = solids.saturation;
     Exchange<Pack<W>> answer;
     if (cells.covered[x / kBlock] == C::kWall)
         watch.see(collide_beside_wall<L, inertia>(f, parameters, saturation, read(C::kBounce), answer));
     else watch.see(collide_with_solids<L, inertia>(f, parameters, saturation, answer));
+    const Pack<W> filled = solids.per_fraction * saturation.epsilon;
     for (int d = 0; d < 3; ++d) {
-        write(C::kForce + d, answer.force[d]);
-        write(C::kMomentum + d, answer.momentum[d]);
+        write(C::kForce + d, solids.per_fraction * answer.force[d]);
+        write(C::kMomentum + d, filled * answer.momentum[d]);
     }
-    write(C::kWeight, answer.weight);
+    write(C::kWeight, (1 - saturation.epsilon) * solids.per_fraction * answer.weight);
     store_all<L>(p, x, f);
 }
 
