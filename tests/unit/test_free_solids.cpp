@@ -68,6 +68,7 @@ class FreeSolids : public CppUnit::TestFixture {
     CPPUNIT_TEST(a_blow_carries_a_sphere_as_far_as_the_exact_solution_says);
     CPPUNIT_TEST(a_sphere_settles_with_the_drag_of_its_array);
     CPPUNIT_TEST(momentum_stays_in_a_crowd_for_thousands_of_steps);
+    CPPUNIT_TEST(a_light_rigid_pair_comes_to_rest_and_keeps_the_momentum);
     CPPUNIT_TEST_SUITE_END();
 
     void light_spheres_that_move_and_turn_come_to_rest()
@@ -186,6 +187,54 @@ class FreeSolids : public CppUnit::TestFixture {
         for (int t = 0; t < 3000; ++t) scene.step();
         const Vec3 after = scene.momentum();
         for (int d = 0; d < 3; ++d) LBM_ASSERT_CLOSE(before[d], after[d], kDrift, norm(before));
+    }
+
+    void a_light_rigid_pair_comes_to_rest_and_keeps_the_momentum()
+    {
+        // Two spheres side by side along x as one body that turns about z, so its inertia is a number.
+        constexpr double kR = 3.5, kHalf = 3.6, kDensity = 0.1;
+        for (const double tau : {0.55, 1.0, 2.0}) {
+            Fluid fluid(test::lattice_config({24, 22, 16}, tau));
+            const double mass = 2 * kDensity * volume(kR), axial = 0.4 * mass * kR * kR;
+            const double inertia = axial + mass * kHalf * kHalf;
+            Vec3 centre{12.1, 11.2, 8}, velocity{1e-3, -5e-4, 0};
+            double angle = 0, spin = 2e-4;
+            const auto parts = [&] {
+                std::vector<Solid> solids;
+                for (const int side : {-1, 1}) {
+                    const Vec3 arm{side * kHalf * std::cos(angle), side * kHalf * std::sin(angle), 0};
+                    Solid s = free_sphere(side, kR, kDensity, centre + arm);
+                    s.body = 7;
+                    s.mass = mass;
+                    s.inertia = axial;
+                    s.velocity = velocity + Vec3{-spin * arm[1], spin * arm[0], 0};
+                    s.angular_velocity = {0, 0, spin};
+                    solids.push_back(s);
+                }
+                return solids;
+            };
+            fluid.place_solids(parts());
+            const auto total = [&] { return fluid.total_momentum() + mass * velocity; };
+            const Vec3 before = total();
+            for (int t = 0; t < 600; ++t) {
+                const auto solids = parts();
+                fluid.place_solids(solids);
+                fluid.step();
+                double torque = 0;
+                for (int i = 0; i < 2; ++i) {
+                    const SolidLoad& load = fluid.loads()[i];
+                    const Vec3 arm = solids[i].position - centre;
+                    velocity += (1 / mass) * load.force;
+                    torque += load.torque[2] + arm[0] * load.force[1] - arm[1] * load.force[0];
+                }
+                spin += torque / inertia;
+                centre += velocity;
+                angle += spin;
+            }
+            CPPUNIT_ASSERT(norm(velocity) < 1e-4 && std::abs(spin) < 2e-5);
+            const Vec3 after = total();
+            for (int d = 0; d < 3; ++d) LBM_ASSERT_CLOSE(before[d], after[d], 1e-10, norm(before));
+        }
     }
 };
 

@@ -26,21 +26,22 @@ bool passes(const Body& body, int mask)
            (typeid(shape) == typeid(Sphere) || typeid(shape) == typeid(Box));
 }
 
-/// DOFs of a member are those of its clump.
-unsigned blocked_dofs(const Body& body, const std::vector<yade::shared_ptr<Body>>& bodies)
+/// What moves: the clump of a member, or the body itself.
+const State& moving_state(const Body& body, const std::vector<yade::shared_ptr<Body>>& bodies)
 {
     if (body.isClumpMember()) {
         const auto clump = static_cast<std::size_t>(body.clumpId);
-        if (clump < bodies.size() && bodies[clump] && bodies[clump]->state) return bodies[clump]->state->blockedDOFs;
+        if (clump < bodies.size() && bodies[clump] && bodies[clump]->state) return *bodies[clump]->state;
     }
-    return body.state->blockedDOFs;
+    return *body.state;
 }
 
-lbm::Solid solid(const Body& body, double lead, unsigned blocked)
+lbm::Solid solid(const Body& body, double lead, const State& moving)
 {
     const State& state = *body.state;
     lbm::Solid result;
     result.id = body.id;
+    if (body.isClumpMember()) result.body = body.clumpId;
     if (const auto* box = dynamic_cast<const Box*>(body.shape.get())) {
         const yade::Quaternionr& q = state.se3.orientation;
         result.shape = lbm::Shape::box;
@@ -56,8 +57,8 @@ lbm::Solid solid(const Body& body, double lead, unsigned blocked)
         for (int d = 0; d < 3; ++d) result.position[d] += lead * result.velocity[d];
     // the bits of YADE's State: translations in the lower three, rotations in the next three
     constexpr unsigned kTranslations = 7, kRotations = 56;
-    if ((blocked & kTranslations) != kTranslations) result.mass = state.mass;
-    if ((blocked & kRotations) != kRotations) result.inertia = state.inertia.minCoeff();
+    if ((moving.blockedDOFs & kTranslations) != kTranslations) result.mass = moving.mass;
+    if ((moving.blockedDOFs & kRotations) != kRotations) result.inertia = moving.inertia.minCoeff();
     return result;
 }
 
@@ -68,7 +69,7 @@ void read_solids(const yade::Scene& scene, const Selection& selection, double le
     const auto& bodies = scene.bodies->body;
     solids.clear();
     const auto take = [&](const yade::shared_ptr<Body>& body) {
-        if (body && passes(*body, selection.mask)) solids.push_back(solid(*body, lead, blocked_dofs(*body, bodies)));
+        if (body && passes(*body, selection.mask)) solids.push_back(solid(*body, lead, moving_state(*body, bodies)));
     };
     if (selection.ids.empty()) {
         solids.reserve(bodies.size());

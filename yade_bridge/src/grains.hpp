@@ -19,7 +19,7 @@ struct Selection {
 /**
  * The selected spheres as solids, in ascending order of their ids.
  *
- * Members of clumps count as they are, with the velocity that YADE gives them; clumps themselves have no sphere. A body
+ * Members of clumps are parts of one rigid body, with the velocity that YADE gives them and the mass of the clump; clumps themselves have no shape. A body
  * that cannot answer to forces (blocked, or without mass) has infinite mass, likewise for rotation. Erased bodies, other
  * shapes and ids that do not exist are passed over.
  * @param lead  positions are taken this much later, along the velocity [s]

@@ -19,7 +19,8 @@ enum class Shape {
  * A rigid solid in the fluid, as the caller knows it at the start of a fluid step. SI units.
  *
  * A finite `mass` (with its `inertia`) says that the solid answers to its load: the load is then passed on with the
- * relaxation that keeps light particles stable. Infinite values say that the motion is prescribed (or none).
+ * relaxation that keeps light particles stable. Infinite values say that the motion is prescribed (or none). Parts of one rigid
+ * body all give the mass and inertia of the body; its load is the sum of theirs, with the moments of their forces.
  */
 struct Solid {
     std::int64_t id = 0;  ///< the caller's key; unique among the solids of one fluid
@@ -34,8 +35,9 @@ struct Solid {
     Vec3 position{};                       ///< of the centre [m]; need not be wrapped in periodic directions
     Vec3 velocity{};                       ///< of the centre [m/s]
     Vec3 angular_velocity{};               ///< [rad/s]
-    double mass = std::numeric_limits<double>::infinity();     ///< [kg], > 0
-    double inertia = std::numeric_limits<double>::infinity();  ///< moment about the centre [kg m2], > 0
+    double mass = std::numeric_limits<double>::infinity();  ///< of the whole rigid body [kg], > 0
+    double inertia =
+        std::numeric_limits<double>::infinity();  ///< smallest principal moment, of the whole rigid body [kg m2], > 0
 };
 
 /**

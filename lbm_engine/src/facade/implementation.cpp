@@ -341,14 +341,33 @@ void Fluid::Implementation::rebuild_faces(double dynamic_pressure_scale)
         populations);
 }
 
+std::unordered_map<std::int64_t, Fluid::Implementation::Coupling> Fluid::Implementation::couplings_of_bodies() const
+{
+    std::unordered_map<std::int64_t, Coupling> of_bodies;
+    for (std::size_t s = 0; s < solids.size(); ++s) {
+        if (solids[s].body < 0) continue;
+        const SolidSums sums = map.sums(s);
+        Coupling& coupling = of_bodies[solids[s].body];
+        coupling.translation += sums.coupling;
+        coupling.spin += sums.spin_coupling;
+    }
+    return of_bodies;
+}
+
 void Fluid::Implementation::settle_loads()
 {
+    const auto of_bodies = couplings_of_bodies();
     const auto count = static_cast<std::ptrdiff_t>(solids.size());
 #pragma omp parallel for schedule(static) if (count > 8)
     for (std::ptrdiff_t s = 0; s < count; ++s) {
         const SolidSums sums = map.sums(s);
-        const double share = load_share(solids[s].mass / units.mass, sums.coupling);
-        const double spin_share = load_share(solids[s].inertia / units.inertia, sums.spin_coupling);
+        const Solid& solid = solids[s];
+        const bool part = solid.body >= 0;
+        const Coupling coupling = part ? of_bodies.at(solid.body) : Coupling{sums.coupling, sums.spin_coupling};
+        double share = load_share(solid.mass / units.mass, coupling.translation);
+        double spin_share = load_share(solid.inertia / units.inertia, coupling.spin);
+        // Turning moves the parts of a body: one share for all keeps its velocities those of a rigid body.
+        if (part) share = spin_share = std::min(share, spin_share);
         const auto load =
             ledgers[s].settle(sums.force, sums.torque(), sums.momentum, sums.angular_momentum, share, spin_share);
         loads[s] = load_in_si(s, load, sums);

@@ -80,6 +80,12 @@ struct Fluid::Implementation {
     double time() const { return time_before_dt + static_cast<double>(steps - steps_before_dt) * dt; }
     void settle_loads();
     void add_film_loads();
+    /// B and B_w of a solid, or of the rigid body that it is part of.
+    struct Coupling {
+        double translation = 0, spin = 0;
+    };
+    /// Of the rigid bodies, by their numbers.
+    std::unordered_map<std::int64_t, Coupling> couplings_of_bodies() const;
     SolidLoad load_in_si(std::size_t s, const LoadLedger::Load& load, const SolidSums& sums) const;
     void watch(const FlowWatch& flow) const;
     void watch_surfaces() const;
