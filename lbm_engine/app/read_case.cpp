@@ -181,11 +181,14 @@ CaseSolid read_solid(Section s, std::int64_t id)
     read_shape(s, solid);
     solid.velocity = s.vector("velocity", {});
     solid.angular_velocity = s.vector("angular_velocity", {});
+    if (s.has("body")) solid.body = s.count("body", 0);
     entry.moving = s.flag("moving", false);
     entry.free = s.flag("free", false);
     if (entry.free && entry.moving)
         throw ConfigError(s.name("free") + ": a solid is free or moving at its velocity, not both");
     if (entry.free) {
+        if (solid.body >= 0)
+            throw ConfigError(s.name("free") + ": a part of a rigid body cannot be free here; clumps in YADE can");
         if (solid.shape != Shape::sphere) throw ConfigError(s.name("free") + ": only a sphere can be free");
         const double density = s.number("density");
         if (!(std::isfinite(density) && density > 0))

@@ -1,0 +1,131 @@
+// The solids of a step: onto the lattice, with what is remembered of them.
+
+#include "facade/implementation.hpp"
+#include "facade/stopwatch.hpp"
+#include "facade/validate.hpp"
+
+#include <algorithm>
+
+namespace lbm {
+namespace {
+
+/// The axes of a box turned by a unit quaternion (w, x, y, z).
+Mat3 rotated_axes(const std::array<double, 4>& q)
+{
+    const auto [w, x, y, z] = q;
+    return {{{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+             {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+             {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}}};
+}
+
+}  // namespace
+
+LatticeSolid Fluid::Implementation::in_lattice_units(const Solid& solid) const
+{
+    LatticeSolid lattice;
+    SolidGeometry& geometry = lattice.geometry;
+    geometry.shape = solid.shape;
+    geometry.radius = solid.radius / units.length;
+    geometry.half_extents = (1 / units.length) * solid.half_extents;
+    geometry.axes = rotated_axes(solid.orientation);
+    geometry.axis = solid.axis;
+    lattice.body = solid.body;
+    lattice.velocity = (1 / units.velocity) * solid.velocity;
+    lattice.angular_velocity = units.time * solid.angular_velocity;
+    for (int d = 0; d < 3; ++d) {
+        double x = (solid.position[d] - config.lower[d]) / units.length;
+        if (config.faces[2 * d].type == FaceType::periodic) x -= config.cells[d] * std::floor(x / config.cells[d]);
+        // Beyond the reach of the lattice nothing is mapped; the distance itself must stay countable.
+        const double reach = 1e6 + geometry.radius + norm(geometry.half_extents);
+        geometry.centre[d] = std::clamp(x, -reach, config.cells[d] + reach);
+    }
+    return lattice;
+}
+
+/**
+ * A free solid with the velocity that it will have within the step, as far as its last two tell. The load of a step acts on the solid after it, so the
+ * drag would lag behind the motion; most of the lag is taken out so, less for light solids, whose stability would suffer.
+ */
+Solid Fluid::Implementation::in_mid_step(const Solid& solid, const Motion& last) const
+{
+    Solid mid = solid;
+    if (std::isfinite(solid.mass)) mid.velocity += velocity_lead(last.share) * (solid.velocity - last.velocity);
+    if (std::isfinite(solid.inertia))
+        mid.angular_velocity += velocity_lead(last.spin_share) * (solid.angular_velocity - last.angular_velocity);
+    return mid;
+}
+
+bool Fluid::Implementation::is_same(const Solid& now, const Solid& before) const
+{
+    double distance2 = 0;
+    for (int d = 0; d < 3; ++d) {
+        double moved = now.position[d] - before.position[d];
+        const double length = config.cells[d] * config.dx;
+        if (config.faces[2 * d].type == FaceType::periodic) moved -= length * std::round(moved / length);
+        distance2 += moved * moved;
+    }
+    const auto& h = now.half_extents;
+    const double jump = now.shape == Shape::box ? std::min({h[0], h[1], h[2]}) : now.radius;
+    return now.id == before.id && now.shape == before.shape && now.radius == before.radius &&
+           now.half_extents == before.half_extents && now.axis == before.axis && distance2 <= jump * jump;
+}
+
+void Fluid::Implementation::place(const std::vector<Solid>& now)
+{
+    const ThreadCount threads(config.threads);
+    Stopwatch watch;
+    const auto count = static_cast<std::ptrdiff_t>(now.size());
+    bool same_ids = now.size() == solids.size();
+    for (std::ptrdiff_t s = 0; same_ids && s < count; ++s) same_ids = is_same(now[s], solids[s]);
+    validate(config, now);
+    if (!same_ids) require_unique_ids(now);
+
+    std::vector<int> previous(now.size());
+    bool any_new = false;
+    for (std::ptrdiff_t s = 0; s < count; ++s) {
+        if (same_ids) {
+            previous[s] = static_cast<int>(s);
+            continue;
+        }
+        const auto found = index_of_id.find(now[s].id);
+        const bool known = found != index_of_id.end() && is_same(now[s], solids[found->second]);
+        previous[s] = known ? found->second : -1;
+        any_new = any_new || !known;
+    }
+    std::vector<LatticeSolid> lattice_solids(now.size());
+#pragma omp parallel for schedule(static) if (count > 256)
+    for (std::ptrdiff_t s = 0; s < count; ++s)
+        lattice_solids[s] = in_lattice_units(previous[s] < 0 ? now[s] : in_mid_step(now[s], last_motions[previous[s]]));
+    map.update(lattice_solids, previous);
+    if (!same_ids) {
+        std::vector<LoadLedger> kept(now.size());
+        std::vector<Motion> motions(now.size());
+        std::vector<FilmMemory> memories(now.size());
+        if (any_new)
+            std::visit([&](const auto& f) { sum_inside(f, collision, config.inertia, map, &CellState::momentum); },
+                       populations);
+        index_of_id.clear();
+        for (std::ptrdiff_t s = 0; s < count; ++s) {
+            index_of_id.emplace(now[s].id, static_cast<int>(s));
+            if (previous[s] >= 0) {
+                kept[s] = ledgers[previous[s]];
+                motions[s] = last_motions[previous[s]];
+                memories[s] = film_memories[previous[s]];
+            } else {
+                motions[s] = {now[s].velocity, now[s].angular_velocity, 0, 0};
+                memories[s] = {now[s].velocity, now[s].angular_velocity, {}, {}, {}, {}};
+                const SolidSums sums = map.sums(s);
+                kept[s].momentum = sums.momentum;
+                kept[s].angular_momentum = sums.angular_momentum;
+            }
+        }
+        ledgers = std::move(kept);
+        last_motions = std::move(motions);
+        film_memories = std::move(memories);
+        loads.assign(now.size(), SolidLoad{});
+    }
+    solids = now;
+    times.map += watch.lap();
+}
+
+}  // namespace lbm
