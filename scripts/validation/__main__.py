@@ -93,4 +93,5 @@ def main():
     print(report.make(catalogue.CASES, folder, folder + ".md"))
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,85 @@
+"""Many free spheres: settling in a periodic cube, or sheared between two plates. Units: dx = 1, density = 1, viscosity = 1."""
+
+import math
+
+import numpy as np
+from scene import arguments, leave
+from yade import O, Vector3, utils
+from yade.wrapper import (Bo1_Sphere_Aabb, Bo1_Wall_Aabb, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom, Ig2_Wall_Sphere_ScGeom,
+                          InsertionSortCollider, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack,
+                          NewtonIntegrator)
+
+from yadelbm import LbmEngine
+
+given = arguments()
+n, a, tau, kind = given["n"], given["radius"], given["tau"], given["kind"]
+O.dt = (tau - 0.5) / 3
+settling = kind == "settling"
+ratio = 2.5 if settling else 1.0
+c = len(given["centres"]) * 4 / 3 * math.pi * a**3 / n**3
+if settling:
+    terminal = given["reynolds"] / (2 * a)
+    weight = 4.5 * terminal / a**2 / (ratio - 1)  # gravity that gives a single sphere this velocity in Stokes flow
+    unit, push = a / terminal, 6 * math.pi * a * terminal
+else:
+    gamma = given["reynolds"] / a**2
+    weight, unit, push = 0.0, 1 / gamma, 6 * math.pi * a**2 * gamma
+# contacts that give in by a hundredth of a radius under the typical force
+material = FrictMat(density=ratio, young=push / (0.01 * a * a), poisson=0.3, frictionAngle=0)
+O.materials.append(material)
+O.periodic = settling
+if settling:
+    O.cell.setBox(n, n, n)
+balls = [O.bodies.append(utils.sphere([x * n for x in centre], a)) for centre in given["centres"]]
+if not settling:
+    # A scene of YADE is periodic along all axes or none, so this one is not: the fluid wraps the spheres around along x and y, and films, which know the
+    # images, keep them apart. YADE's contacts do not; only those with the plates are used.
+    for z, sense in ((0, 1), (n, -1)):
+        O.bodies.append(utils.wall(z, axis=2, sense=sense))
+speed = 0 if settling else gamma * n / 2
+still = (0, 0, 0)
+fluid = LbmEngine(lower=(0, 0, 0), upper=(n, n, n), dx=1, density=1, viscosity=1, tau=tau, gravity=(0, 0, -weight),
+                  acceleration=(0, 0, (ratio - 1) * c * weight),
+                  boundary=["periodic"] * 6 if settling else ["periodic"] * 4 + ["noSlip"] * 2,
+                  boundaryVelocity=[still] * 4 + [(-speed, 0, 0), (speed, 0, 0)], ids=balls, label="fluid")
+O.engines = [
+    ForceResetter(),
+    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]),
+    InteractionLoop([Ig2_Sphere_Sphere_ScGeom()] if settling else [Ig2_Wall_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
+                    [Law2_ScGeom_FrictPhys_CundallStrack()]),
+    fluid,
+    NewtonIntegrator(gravity=(0, 0, -weight), damping=0),
+]
+if not settling:
+    for ball in balls:  # on their way with the shear already
+        O.bodies[ball].state.vel = Vector3(gamma * (O.bodies[ball].state.pos[2] - n / 2), 0, 0)
+
+total = math.ceil(given["duration"] * unit / O.dt)
+every = max(1, total // 2000)
+samples = []
+while O.iter < total:
+    O.run(every, True)
+    if settling:
+        mean = np.mean([O.bodies[b].state.vel[2] for b in balls])
+        samples.append((fluid.averageVelocity()[2] - mean) / terminal)
+    else:
+        wall = (fluid.getBoundaryForce(4)[0] - fluid.getBoundaryForce(5)[0]) / 2
+        stresslets = sum(fluid.stresslet(b)[0][2] for b in balls)
+        samples.append((abs(wall) / (n * n * gamma), stresslets / (n**3 * gamma)))
+result = {"n": n, "radius_cells": a, "cells": n**3, "steps": O.iter, "samples": len(samples)}
+if settling:
+    late = np.array(samples[len(samples) // 3:])
+    blocks = [block.mean() for block in np.array_split(late, 6)]
+    result.update(ratio=float(late.mean()), error=float(np.std(blocks, ddof=1) / math.sqrt(6)),
+                  history=[round(float(b.mean()), 5) for b in np.array_split(np.array(samples), 24)])
+else:
+    late = np.array(samples[len(samples) // 2:])
+    at = np.array([O.bodies[b].state.pos for b in balls])
+    apart = at[:, None] - at[None, :]
+    apart[..., :2] -= n * np.round(apart[..., :2] / n)
+    distance = np.sqrt((apart**2).sum(-1)) + 1e9 * np.eye(len(balls))
+    result["nearest"] = float(distance.min() / (2 * a))  # distance of centres in diameters
+    wall, stresslet = late.mean(0)
+    result.update(eta=float(wall), eta_stresslet=float(1 + stresslet),
+                  history=[round(float(b.mean()), 5) for b in np.array_split(np.array(samples)[:, 0], 24)])
+leave(result)
