@@ -48,26 +48,29 @@ struct RowSaturation {
     std::vector<std::uint8_t> covered;  ///< per block: a Cover
 };
 
-/// The saturation of cells, and what their answers are divided by, from the sums over the solids in them.
+/// The saturation of cells, and what their answers are divided by.
 template <class V>
 struct Mixture {
     Saturation<V> saturation;
     V per_fraction;  ///< 1 / sum eps; 1 without solids
-
-    /**
-     * Where solids overlap, fractions fill a cell at most once; velocity and strength are means weighted by them.
-     * @param whole_cells  cells are solid or fluid, whichever they are more (for bounce-back)
-     */
-    [[gnu::always_inline]] Mixture(const V& fraction, const V& strength, const V (&u)[3], bool whole_cells)
-    {
-        const V one = V{} + 1.0, zero = V{};
-        per_fraction = one / (fraction > 0 ? fraction : one);
-        const V epsilon = fraction < 1 ? fraction : one;
-        saturation.epsilon = epsilon;
-        saturation.strength = strength * (epsilon * per_fraction);
-        for (int d = 0; d < 3; ++d) saturation.u_s[d] = u[d] * per_fraction;
-        if (whole_cells) saturation.epsilon = epsilon >= 0.5 ? one : zero;
-    }
 };
+
+/**
+ * From the sums over the solids in cells. Where solids overlap, fractions fill a cell at most once; velocity and strength are means weighted by them.
+ * @param whole_cells  cells are solid or fluid, whichever they are more (for bounce-back)
+ */
+template <class V>
+[[gnu::always_inline]] inline Mixture<V> mixture(const V& fraction, const V& strength, const V (&u)[3],
+                                                 bool whole_cells)
+{
+    const V one = V{} + 1.0, zero = V{};
+    const V per_fraction = one / (fraction > 0 ? fraction : one);
+    const V filled = fraction < 1 ? fraction : one;
+    const V whole = filled >= 0.5 ? one : zero;
+    return {{whole_cells ? whole : filled,
+             strength * (filled * per_fraction),
+             {u[0] * per_fraction, u[1] * per_fraction, u[2] * per_fraction}},
+            per_fraction};
+}
 
 }  // namespace lbm

@@ -48,10 +48,9 @@ void read_row(const Populations<L, T>& populations, const CollisionParameters& p
         const Moments<double> before = moments<L>(f);
         const auto in = [&](int column) { return cells.column(column)[x]; };
         using C = RowSaturation;
+        const double u[3] = {in(C::kUs), in(C::kUs + 1), in(C::kUs + 2)};
         const Saturation<double> s =
-            Mixture<double>(in(C::kFraction), in(C::kStrength), {in(C::kUs), in(C::kUs + 1), in(C::kUs + 2)},
-                            p.scheme == Scheme::bounce_back)
-                .saturation;
+            mixture(in(C::kFraction), in(C::kStrength), u, p.scheme == Scheme::bounce_back).saturation;
         Exchange<double> answer;
         const double bounce = in(C::kBounce);
         if (inertia) collide_beside_wall<L, true>(f, p, s, bounce, answer);

@@ -62,9 +62,9 @@ template <class L, bool inertia, int W, class T>
         store<W>(cells.column(column) + x, v);
     };
     using C = RowSaturation;
-    const Mixture<Pack<W>> solids(read(C::kFraction), read(C::kStrength),
-                                  {read(C::kUs), read(C::kUs + 1), read(C::kUs + 2)},
-                                  parameters.scheme == Scheme::bounce_back);
+    const Pack<W> u[3] = {read(C::kUs), read(C::kUs + 1), read(C::kUs + 2)};
+    const Mixture<Pack<W>> solids =
+        mixture(read(C::kFraction), read(C::kStrength), u, parameters.scheme == Scheme::bounce_back);
     const Saturation<Pack<W>>& saturation = solids.saturation;
     Exchange<Pack<W>> answer;
     if (cells.covered[x / kBlock] == C::kWall)
