@@ -39,7 +39,9 @@ void Fluid::Implementation::watch(const FlowWatch& flow) const
     const double limit = config.max_mach * kSpeedOfSound;
     const bool diverged = !std::isfinite(flow.sum2);
     const bool too_fast = flow.max2 > limit * limit;
-    if (!diverged && !too_fast && flow.drho2 <= kMaxDensityDeviation * kMaxDensityDeviation) return;
+    // Stokes flow is linear in the pressure: its density has no size that could be too large.
+    const bool compressed = config.inertia && !(flow.drho2 <= kMaxDensityDeviation * kMaxDensityDeviation);
+    if (!diverged && !too_fast && !compressed) return;
 
     std::vector<double> fluid_fraction(static_cast<std::size_t>(cell_count()));
     for_cells([&](const CellState& cell) { fluid_fraction[index(cell)] = 1 - cell.epsilon; });
