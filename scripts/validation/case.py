@@ -1,5 +1,6 @@
 """What a validation case is: runs, and what their results say about a claim."""
 
+import json
 import math
 from dataclasses import dataclass, field
 from typing import Callable
@@ -17,6 +18,9 @@ class Run:
     function: Callable
     arguments: dict
     cost: float
+
+    def __post_init__(self):
+        object.__setattr__(self, "arguments", json.loads(json.dumps(self.arguments)))  # as they are read back: lists, not tuples
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ Made by `scripts/validate` from the results in [{folder}/]({folder}/), which hol
 - **worst**: the largest error among the offsets. The target applies to it, not to the mean.
 - **scatter**: half the range over the offsets.
 - **tau**: the cheapest one for steady Stokes flow. The result does not depend on it; the case `tau` proves that.
+- **cost** of a case: at its end, with where and when it was run.
 - A verdict is given only where a target was set before the runs. No target was changed to fit a number.
 """
 
@@ -85,8 +86,8 @@ def section(case, store, rows, good, images, folder):
     return "\n\n".join(part for part in parts if part)
 
 
-def make(cases, folder, path):
-    """Draws the figures into `folder` and writes the report; returns its path. Cases without results are left out."""
+def make(cases, folder, path, figures=True):
+    """Draws the figures into `folder` (unless told not to) and writes the report; returns its path. Cases without results are left out."""
     link = os.path.basename(folder)
     sections, lines, seconds = [], [], 0.0
     for case in cases:
@@ -94,10 +95,10 @@ def make(cases, folder, path):
         good = [result for result in store.results if not result.failure]
         if not good:
             continue
-        rows, figures = case.rows(good), case.figures(good)
-        for figure in figures:
+        rows, images = case.rows(good), case.figures(good)
+        for figure in images if figures else ():
             plotting.save(figure, os.path.join(folder, figure.name + ".png"))
-        sections.append(section(case, store, rows, good, figures, link))
+        sections.append(section(case, store, rows, good, images, link))
         lines += [(f"[{case.name}](#{anchor(case.title)})", row) for row in rows]
         seconds += sum(result.seconds for result in store.results)
     cost = f" (about {seconds / 60:.0f} minutes of one core)"

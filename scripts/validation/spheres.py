@@ -132,12 +132,12 @@ def towed(n, direction, tau, scheme="exact"):
 
 
 def towed_runs(quick):
-    for tau in (0.55, 1.0, 2.0) if quick else (0.55, 0.7, 1.0, 1.5, 2.0):
+    for tau in (0.7, 1.0, 2.0) if quick else (0.55, 0.7, 1.0, 2.0):
         for direction in DIRECTIONS[:2] if quick else DIRECTIONS:
-            yield Run(towed, {"n": 24, "direction": direction, "tau": tau}, 0.35)
+            yield Run(towed, {"n": 24, "direction": direction, "tau": tau}, 14e-6 * 3200 / (tau - 0.5))
     if not quick:
         for direction in DIRECTIONS[1:3]:
-            yield Run(towed, {"n": 40, "direction": direction, "tau": 1.0}, 1.5)
+            yield Run(towed, {"n": 40, "direction": direction, "tau": 1.0}, 0.9)
 
 
 def towed_rows(results):
@@ -183,8 +183,9 @@ TOWED = Case(
     name="towed",
     title="A sphere towed through the lattice",
     solved="""
-`LbmEngine`, Stokes flow: a sphere moves through a periodic cube (c = 0.027) at a constant velocity, a hundredth of a cell per step, over many cells; a drive balances the drag, so that the mean velocity of the fluid
-stays near zero. K from the mean load and the mean relative velocity; noise: rms of the load vector about its mean, over the mean drag.""",
+`LbmEngine`, Stokes flow: a sphere moves through a periodic cube (c = 0.027) at a constant velocity, Re = 0.2, over four cells; a drive balances the drag, so that the mean velocity of the fluid
+stays near zero. K from the mean load and the mean relative velocity; noise: rms of the load vector about its mean, over the mean drag.
+(Re has to be small. In the frame of the lattice the flow is unsteady, and that is inertia even where the quadratic terms are dropped: at Re = 5 the drag is 8 % higher.)""",
     reference="`02_cubic_arrays_stokes.csv`, SC: the same flow seen from the sphere.",
     runs=lambda quick: list(towed_runs(quick)),
     rows=towed_rows,

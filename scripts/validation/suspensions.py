@@ -31,11 +31,11 @@ def shear(phi, count, diameter, duration, seed):
 
 def runs(quick):
     for phi in (0.1, 0.3) if quick else (0.1, 0.2, 0.3, 0.4):
-        count, d, duration = (30, 8, 8) if quick else (100, 8, 24)
+        count, d, duration = (30, 8, 8) if quick else (100, 8, 16)
         cells = count * math.pi / 6 * d**3 / phi
         yield Run(settling, {"phi": phi, "count": count, "diameter": d, "duration": duration, "seed": 1}, 1.3 * cells * duration * 960 / 1e9)
     for phi in (0.1, 0.3) if quick else (0.1, 0.2, 0.3, 0.4):
-        count, d, duration = (30, 8, 3) if quick else (150, 8, 8)
+        count, d, duration = (30, 8, 3) if quick else (100, 8, 6)
         cells = count * math.pi / 6 * d**3 / phi
         yield Run(shear, {"phi": phi, "count": count, "diameter": d, "duration": duration, "seed": 1}, 1.5 * cells * duration * 960 / 1e9)
 

@@ -109,7 +109,7 @@ def by_flow(results):
     found = {}
     for r in results:
         found.setdefault((describe(r), r["lattice"], r["variant"]), []).append(r)
-    return [sorted(group, key=lambda r: r["tau"]) for group in found.values()]
+    return [sorted(group, key=lambda r: r["tau"]) for group in found.values() if any(r["tau"] == 1.0 for r in group)]
 
 
 def figures(results):
