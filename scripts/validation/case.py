@@ -51,7 +51,7 @@ class Row:
         """True or False; None where nothing was asked. A number that is not finite never meets a target."""
         judged = abs(self.error) if self.worst is None else self.worst
         verdicts = [value <= bound for value, bound in ((judged, self.target), (self.scatter, self.scatter_target))
-                    if bound is not None]
+                    if bound is not None and value is not None]
         return all(verdicts) if verdicts else None
 
 
@@ -118,7 +118,7 @@ class Spread:
 
     mean: float
     worst: float   # largest size
-    scatter: float  # half the range
+    scatter: float  # half the range; None of a single one
     count: int
 
     @staticmethod
@@ -126,7 +126,8 @@ class Spread:
         errors = list(errors)
         if not errors or not all(math.isfinite(e) for e in errors):
             return Spread(math.nan, math.nan, math.nan, len(errors))
-        return Spread(sum(errors) / len(errors), max(map(abs, errors)), (max(errors) - min(errors)) / 2, len(errors))
+        scatter = (max(errors) - min(errors)) / 2 if len(errors) > 1 else None
+        return Spread(sum(errors) / len(errors), max(map(abs, errors)), scatter, len(errors))
 
 
 def observed_order(sizes, errors):

@@ -20,6 +20,14 @@ Made by `scripts/validate` from the results in [{folder}/]({folder}/), which hol
 - A verdict is given only where a target was set before the runs. No target was changed to fit a number.
 """
 
+NOT_COVERED = """\
+## Not covered yet
+
+- Minimum fluidisation (`10_min_fluidisation.csv`), consolidation (`09_terzaghi_*.csv`) and Skempton's B (`09_skempton_B.csv`): coupled beds of many grains between pistons, which need worked scenes first.
+- A sphere in a stream at Re = 200 (see the case `stream`).
+- Suspensions of several hundred spheres and more than one arrangement each; the case `suspensions` has one of 100.
+"""
+
 
 def table(names, rows):
     """A Markdown table."""
@@ -105,7 +113,7 @@ def make(cases, folder, path, figures=True):
     judged = [row.met for _, row in lines if row.met is not None]
     count = f"{sum(judged)} of {len(judged)} targets are met." if judged else ""
     text = [HEAD.format(folder=link, cost=cost), "## Summary", count, summary([line for line in lines if line[1].met is not None]),
-            *sections]
+            *sections, NOT_COVERED]
     with open(path, "w", encoding="utf-8") as file:
         file.write("\n\n".join(part.strip() for part in text if part) + "\n")
     return path

@@ -103,7 +103,7 @@ def wall_rows(results):
         for (ratio, _), group in groups(of(results, function), "ratio", size).items():
             s = Spread.of(r["K"] / exact[ratio] - 1 for r in group)
             found.append(Row(f"drag K, {what} = {ratio:g}", f"d = {group[0]['diameter']:.1f}", "2", s.mean, None, s.worst,
-                             s.scatter if len(group) > 1 else None))
+                             s.scatter))
     return found
 
 

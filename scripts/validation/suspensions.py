@@ -34,7 +34,7 @@ def runs(quick):
         count, d, duration = (30, 8, 8) if quick else (100, 8, 16)
         cells = count * math.pi / 6 * d**3 / phi
         yield Run(settling, {"phi": phi, "count": count, "diameter": d, "duration": duration, "seed": 1}, 1.3 * cells * duration * 960 / 1e9)
-    for phi in (0.1, 0.3) if quick else (0.1, 0.2, 0.3, 0.4):
+    for phi in (0.1, 0.3) if quick else (0.1, 0.2, 0.3):  # above, missing contacts let spheres pass through each other
         count, d, duration = (30, 8, 3) if quick else (100, 8, 6)
         cells = count * math.pi / 6 * d**3 / phi
         yield Run(shear, {"phi": phi, "count": count, "diameter": d, "duration": duration, "seed": 1}, 1.5 * cells * duration * 960 / 1e9)
@@ -63,7 +63,7 @@ def settling_rows(results):
 
 def shear_rows(results):
     return [Row(f"relative viscosity against Eilers, phi = {r['phi']:g}", "d = 8", "1", r["eta"] / eilers(r["phi"]) - 1,
-                0.1 if r["phi"] <= 0.3 else None) for r in of(results, shear)]
+                0.1) for r in of(results, shear)]
 
 
 def text(results):
@@ -72,7 +72,12 @@ def text(results):
     lines += [f"- phi = {r['phi']:g}: eta_r = {r['eta']:.3f} from the walls, {r['eta_stresslet']:.3f} from stresslets, "
               f"H / d = {r['n'] / 2 / r['radius_cells']:.1f}, "
               f"nearest centres at the end {r['nearest']:.3f} d" for r in of(results, shear)]
-    return "\n".join(lines)
+    return "\n".join(lines) + """
+
+Sheared spheres are kept apart by films alone, since a scene of YADE is periodic along all axes or none and its contacts do not know the images of the fluid's box. That is not enough from phi = 0.3 on (see the nearest centres;
+at phi = 0.4 they came as close as 0.7 d, so that this concentration was left out). A gap of five to eight diameters between smooth plates adds to the viscosity as well. Walls and stresslets agree because both belong to the same
+momentum balance; their agreement says nothing about contacts.
+"""
 
 
 def figures(results):
