@@ -50,12 +50,12 @@ def rows(results):
     for (c,), group in groups([r for r in results if not (r["seed"] == 1 and r["axis"] == 0)], "c").items():
         exact = float(TABLE[c]["K_vdH2005"])
         s = Spread.of(r["K"] / exact - 1 for r in group)
-        found.append(Row(f"drag K against van der Hoef, c = {c:g}, mean of {s.count} packs", f"d = {group[0]['diameter']:.1f}", "0.8", s.mean, 0.05,
+        found.append(Row(f"drag K against van der Hoef, c = {c:g}, {s.count} pack{'s' * (s.count > 1)}", f"d = {group[0]['diameter']:.1f}", "0.8", s.mean, 0.05,
                          abs(s.mean), s.scatter))
     for c, group in grid_study(results).items():
         fine = group[-1]
         for r in group[:-1]:
-            target = 0.02 if r is group[-2] else None
+            target = 0.02 if r is group[-2] and fine["diameter"] > 20 else None
             found.append(Row(f"drag K against the finest grid (d = {fine['diameter']:.0f}), one pack, c = {c:g}", f"d = {r['diameter']:.1f}", "0.8",
                              r["K"] / fine["K"] - 1, target))
     return found
@@ -72,7 +72,8 @@ Our mean against three published correlations, which differ among themselves by 
 
 {table(("c", "K", "van der Hoef 2005", "Hill, Koch & Ladd 2001", "Tenneti 2011"), lines)}
 
-The packs have {COUNT} spheres; scatter is half the range over packs. Gaps in a dense pack are narrower than a cell at every resolution used here; the pressure drop in them converges from below, which the
+The target falls short where gaps are narrow: at c = 0.5 and 0.6 most neighbours nearly touch, and with twelve cells per diameter the drag of such a pack is too low by what the grid study shows, as for touching cubic
+arrays (case `arrays`). The packs have {COUNT} spheres; scatter is half the range over packs. Gaps in a dense pack are narrower than a cell at every resolution used here; the pressure drop in them converges from below, which the
 grid study shows.
 """
 

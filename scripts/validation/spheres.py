@@ -239,6 +239,7 @@ of the sphere (reciprocal theorem: eta_r - 1 = S_xz / (mu gamma V)). Errors are 
     reference="`08_couette_cell_single_sphere.csv`: multipoles, images and fundamental solutions, computed for this project, 1e-4 and better.",
     runs=lambda quick: list(couette_runs(quick)),
     rows=couette_rows,
+    text=lambda results: "A sphere of 6.4 cells (a / H = 0.1 in 32 cells) is below the eight that are advised; its rotation rate depends on the offset by more than the target.",
 )
 
 
@@ -274,7 +275,7 @@ def stream(reynolds, d, width, length, tau, shift):
 
 # Reynolds number, cells per diameter, speed in cells per step. With u dx / nu above about 8 the velocity face is unstable (see docs/physics.md,
 # "Sound"), so that the diameter has to grow with the Reynolds number.
-STREAMS = ((10, 12, 0.05), (20, 8, 0.05), (20, 12, 0.05), (50, 12, 0.06), (100, 16, 0.06))
+STREAMS = ((10, 8, 0.05), (20, 8, 0.05), (20, 12, 0.05), (50, 8, 0.05), (50, 12, 0.05), (100, 16, 0.06))
 
 
 def stream_runs(quick):
