@@ -22,6 +22,7 @@ class BadInput : public CppUnit::TestFixture {
     CPPUNIT_TEST(a_refused_placement_leaves_the_fluid_as_it_was);
     CPPUNIT_TEST(a_surface_that_is_too_fast_stops_before_the_step);
     CPPUNIT_TEST(divergence_and_mach_limit_end_the_run_with_place_and_time);
+    CPPUNIT_TEST(stokes_flow_bears_any_pressure);
     CPPUNIT_TEST(positions_outside_the_box_are_refused);
     CPPUNIT_TEST(unwritable_files_are_reported);
     CPPUNIT_TEST_SUITE_END();
@@ -156,6 +157,19 @@ class BadInput : public CppUnit::TestFixture {
         Fluid walled(c);
         walled.place_solids({s});
         walled.step();
+    }
+
+    void stokes_flow_bears_any_pressure()
+    {
+        FluidConfig c = test::lattice_config({8, 4, 4}, 0.8);
+        c.inertia = false;
+        c.faces[kXMin].type = c.faces[kXMax].type = FaceType::pressure;
+        c.faces[kXMin].pressure = c.faces[kXMax].pressure = 1;  // three times what the density at rest gives
+        Fluid fluid(c);
+        for (int t = 0; t < 10; ++t) fluid.step();
+        CPPUNIT_ASSERT(std::abs(fluid.pressure_at({4, 2, 2}) - 1) < 1e-12);
+        c.inertia = true;
+        assert_says(says<ConfigError>([&] { Fluid{c}; }), "changes the density by 300 %");
     }
 
     void positions_outside_the_box_are_refused()

@@ -71,7 +71,8 @@ struct FluidConfig {
 inline constexpr double kMinTau = 0.505;  ///< below, no flow of interest was found stable
 inline constexpr double kMaxTau = 20.0;   ///< above, the slip of first order in the Knudsen number is no longer small
 inline constexpr double kMinRoughness = 1e-6, kMaxRoughness = 0.1;  ///< of films, in radii
-inline constexpr double kMaxDensityDeviation = 0.5;  ///< relative to rest; a step that goes beyond it ends the run
+inline constexpr double kMaxDensityDeviation =
+    0.5;  ///< relative to rest; with inertia, a step that goes beyond it ends the run
 inline constexpr double kMinRadiusInCells = 2.0;
 inline constexpr double kMinHalfExtentInCells = 1.0;
 inline constexpr double kMaxCells = 2e9;  ///< no machine at hand holds more
