@@ -6,7 +6,7 @@ RADIUS, ROUND_OFF = 3.5e-3, 1e-10
 
 
 def dumb_bell(density_ratio, centre=(9e-3, 9e-3, 9e-3), half=3.6e-3):
-    """Two spheres that do not overlap, along x; returns the clump."""
+    """Two spheres along x; returns the clump. With the default they do not overlap."""
     material = FrictMat(density=1000 * density_ratio)
     x, y, z = centre
     clump, _ = O.bodies.appendClumped([sphere((x + s * half, y, z + s * 1e-4), RADIUS, material=material) for s in (-1, 1)])
@@ -68,4 +68,20 @@ def light_dumb_bells_come_to_rest():
         check(clump.state.angVel.norm() * RADIUS < 0.05 * speed, "tau %g: spin" % tau)
 
 
-prove(momentum_is_conserved_with_clumps, loads_of_the_members_turn_the_clump, light_dumb_bells_come_to_rest)
+def the_plan_takes_a_clump_for_one_grain():
+    g = (0, 0, -0.1)
+    for half, size, density in ((3.6e-3, 2 ** (1 / 3), 1500), (1e-9, 1, 3000)):  # side by side; in the same place, where masses add up
+        material = FrictMat(density=density)
+        speeds = []
+        for make in (lambda: dumb_bell(1.5, half=half), lambda: O.bodies.append(sphere((9e-3,) * 3, size * RADIUS, material=material))):
+            O.reset()
+            make()
+            fluid = box((20, 20, 20), gravity=g, tau=0.55)
+            O.engines, O.dt = engines(fluid, g), 1e-4
+            plan = fluid.plan()
+            speeds.append(plan.mach / plan.fluidDt)
+        check_close(speeds[0] / speeds[1], 1, 0.15, "expected speed, half %g" % half)
+
+
+prove(momentum_is_conserved_with_clumps, loads_of_the_members_turn_the_clump, light_dumb_bells_come_to_rest,
+      the_plan_takes_a_clump_for_one_grain)

@@ -290,6 +290,9 @@ def suggested_steps_and_cells_are_what_the_plan_takes():
         check(0.019 < plan.estimatedError <= 0.02, "the accuracy is not used: %g" % plan.estimatedError)
     check(plan.ranking[0]["fluidDt"] == plan.fluidDt and len(plan.ranking) > 3, "ranking %s" % plan.ranking[:2])
     check_raises(ValueError, "beyond the budget of 0.001 GB", lambda: fluid.suggestDx(memory=1e6))
+    memory = fluid.plan().memory
+    fluid.lattice = "D3Q27"
+    check_close(fluid.plan().memory / memory, 27 / 19, 0.02, "memory of the other lattice")
     check_raises(ValueError, "beyond the budget of 0.001 s", lambda: fluid.suggestDt(seconds=1e-3))
     check_raises(ValueError, "solid fraction = 1.5", lambda: fluid.suggestDx(solidFraction=1.5))
     O.run(30, True)

@@ -123,6 +123,7 @@ lbm::PlanRequest plan_request(const yade::Scene& scene, const Settings& s, const
     request.tau = s.tau;
     request.max_mach = s.max_mach;
     request.accuracy = s.accuracy;
+    request.lattice = s.lattice == "D3Q27" ? lbm::Lattice::d3q27 : lbm::Lattice::d3q19;
     request.storage = s.storage == "single" ? lbm::Storage::single_precision : lbm::Storage::double_precision;
     request.speed = expected_speed(s, solids);
     request.response_time = response_time(s, solids, request.speed);

@@ -16,8 +16,8 @@ namespace yadelbm {
 
 /**
  * Checks that a fluid with these settings fits the scene as it is now.
- * @throws lbm::ConfigError  for a second engine or one behind the integrator, no spheres, a sphere that the lattice cannot hold, ids that are no
- *         spheres, a periodic cell that is not the fluid's box, a time step that is not finite and positive
+ * @throws lbm::ConfigError  for a second engine or one behind the integrator, no sphere or box, a sphere that the lattice cannot hold, ids that are
+ *         neither, a periodic cell that is not the fluid's box, a time step that is not finite and positive
  */
 void check_scene(const yade::Scene& scene, const Settings& settings, const std::vector<lbm::Solid>& solids);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 namespace yadelbm {
 namespace {
@@ -18,8 +20,58 @@ double volume(const lbm::Solid& solid)
     return solid.shape == lbm::Shape::box ? 8 * h[0] * h[1] * h[2] : sphere_volume(solid.radius);
 }
 
-/// Half of the size of a solid: its radius, or what a box of that volume would have.
-double half_size(const lbm::Solid& solid) { return std::cbrt(3 * volume(solid) / (4 * kPi)); }
+double distance(const lbm::Vec3& a, const lbm::Vec3& b) { return norm({a[0] - b[0], a[1] - b[1], a[2] - b[2]}); }
+
+/// Volume of a part that the spheres among the earlier parts of its body leave, within some per cent of the part; boxes count whole.
+double volume_left(const lbm::Solid& part, const std::vector<const lbm::Solid*>& earlier)
+{
+    std::vector<const lbm::Solid*> near;
+    for (const lbm::Solid* other : earlier)
+        if (part.shape == lbm::Shape::sphere && other->shape == lbm::Shape::sphere &&
+            distance(part.position, other->position) < part.radius + other->radius)
+            near.push_back(other);
+    if (near.empty()) return volume(part);
+    constexpr int kPoints = 10;  // along each axis of the cube around the sphere
+    int inside = 0, left = 0;
+    for (int point = 0; point < kPoints * kPoints * kPoints; ++point) {
+        const int index[3] = {point % kPoints, point / kPoints % kPoints, point / (kPoints * kPoints)};
+        lbm::Vec3 at = part.position;
+        for (int d = 0; d < 3; ++d) at[d] += part.radius * (2 * (index[d] + 0.5) / kPoints - 1);
+        if (distance(at, part.position) > part.radius) continue;
+        ++inside;
+        left += std::none_of(near.begin(), near.end(),
+                             [&](const lbm::Solid* other) { return distance(at, other->position) < other->radius; });
+    }
+    return volume(part) * left / inside;
+}
+
+/// What answers to its load as one: a lone solid or, a rigid body.
+struct FreeBody {
+    double mass = 0, volume = 0;
+    /// Half of its size: its radius, or that of a sphere of its volume.
+    double half_size() const { return std::cbrt(3 * volume / (4 * kPi)); }
+};
+
+std::vector<FreeBody> free_bodies(const std::vector<lbm::Solid>& solids)
+{
+    std::vector<FreeBody> bodies;
+    std::map<std::int64_t, std::vector<const lbm::Solid*>> parts;  // by the number of the rigid body
+    for (const lbm::Solid& solid : solids) {
+        if (!std::isfinite(solid.mass)) continue;
+        if (solid.body < 0) bodies.push_back({solid.mass, volume(solid)});
+        else parts[solid.body].push_back(&solid);
+    }
+    for (const auto& [number, of_body] : parts) {
+        FreeBody body{of_body.front()->mass, 0};
+        std::vector<const lbm::Solid*> earlier;
+        for (const lbm::Solid* part : of_body) {
+            body.volume += volume_left(*part, earlier);
+            earlier.push_back(part);
+        }
+        bodies.push_back(body);
+    }
+    return bodies;
+}
 
 /// Share of a lone sphere's speed that is left at solid fraction c: cubic array, dilute.
 /// @see Hasimoto (1959), J. Fluid Mech. 5, 317
@@ -100,11 +152,10 @@ double response_time(const Settings& s, const std::vector<lbm::Solid>& solids, d
 {
     double shortest = std::numeric_limits<double>::infinity();
     const double nu = s.viscosity / s.density;
-    for (const lbm::Solid& solid : solids) {
-        if (!std::isfinite(solid.mass)) continue;
-        const double ratio = solid.mass / (s.density * volume(solid));
-        const double stokes = (ratio + 0.5) * (2.0 / 9) * half_size(solid) * half_size(solid) / nu;
-        const double reynolds = std::min(speed * 2 * half_size(solid) / nu, 1000.0);
+    for (const FreeBody& body : free_bodies(solids)) {
+        const double ratio = body.mass / (s.density * body.volume), R = body.half_size();
+        const double stokes = (ratio + 0.5) * (2.0 / 9) * R * R / nu;
+        const double reynolds = std::min(speed * 2 * R / nu, 1000.0);
         shortest = std::min(shortest, stokes / (1 + 0.15 * std::pow(reynolds, 0.687)));
     }
     return shortest;
@@ -129,8 +180,8 @@ double static_pressure(const Settings& s, const std::vector<lbm::Solid>& solids)
         double area = 1, weight = 0;
         for (int other = 0; other < 3; ++other)
             if (other != axis) area *= s.upper[other] - s.lower[other];
-        for (const lbm::Solid& solid : solids)
-            if (std::isfinite(solid.mass)) weight += (solid.mass - s.density * volume(solid)) * s.gravity[axis];
+        for (const FreeBody& body : free_bodies(solids))
+            weight += (body.mass - s.density * body.volume) * s.gravity[axis];
         pressure += std::abs(weight) / area;
     }
     return pressure;
@@ -141,13 +192,12 @@ double expected_speed(const Settings& s, const std::vector<lbm::Solid>& solids)
     double speed = driven_speed(s, solids);
     for (const lbm::Vec3& wall : s.boundary_velocity) speed = std::max(speed, norm(wall));
     const double gravity = norm(s.gravity);
-    for (const lbm::Solid& solid : solids) {
+    for (const lbm::Solid& solid : solids)
         speed = std::max(speed, norm(solid.velocity) +
                                     norm(solid.angular_velocity) * (solid.radius + norm(solid.half_extents)));
-        if (std::isfinite(solid.mass)) {
-            const double difference = solid.mass / volume(solid) - s.density;
-            speed = std::max(speed, settling_speed(2 * half_size(solid), difference, gravity, s.density, s.viscosity));
-        }
+    for (const FreeBody& body : free_bodies(solids)) {
+        const double difference = body.mass / body.volume - s.density;
+        speed = std::max(speed, settling_speed(2 * body.half_size(), difference, gravity, s.density, s.viscosity));
     }
     return speed;
 }
