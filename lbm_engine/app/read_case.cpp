@@ -18,7 +18,7 @@ class Section {
 public:
     Section(const Json& json, std::string path) : json_(json), path_(std::move(path))
     {
-        if (!json.is_object()) throw ConfigError(path_ + ": must be an object");
+        if (!json.is_object()) throw ConfigError((path_.empty() ? "the case" : path_) + ": must be an object");
     }
 
     bool has(const char* key)

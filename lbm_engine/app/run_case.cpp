@@ -84,8 +84,6 @@ private:
     Vec3 gravity_;
 };
 
-}  // namespace
-
 /// Writes the state for the user to look at; a file that cannot be written must not hide why the run stopped.
 std::string kept_state(const Fluid& fluid, const std::string& vtk)
 {
@@ -97,6 +95,8 @@ std::string kept_state(const Fluid& fluid, const std::string& vtk)
         return std::string("; the state is not kept: ") + error.what();
     }
 }
+
+}  // namespace
 
 CaseResult run_case(const Case& input, const std::function<void(const Progress&)>& report)
 {

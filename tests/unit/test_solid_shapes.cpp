@@ -77,6 +77,7 @@ class SolidShapes : public CppUnit::TestFixture {
     CPPUNIT_TEST(coincident_spheres_of_a_body_behave_as_one);
     CPPUNIT_TEST(buoyancy_of_a_body_counts_the_union);
     CPPUNIT_TEST(bodies_that_come_apart_count_all_their_volume_again);
+    CPPUNIT_TEST(a_part_that_leaves_its_body_takes_its_volume_along);
     CPPUNIT_TEST(channel_between_boxes_on_the_lattice_is_exact);
     CPPUNIT_TEST(moving_box_drags_a_couette_flow);
     CPPUNIT_TEST(flow_through_a_pipe_does_not_depend_on_tau);
@@ -200,6 +201,21 @@ class SolidShapes : public CppUnit::TestFixture {
         LBM_ASSERT_CLOSE(2e-4 * V, fluid.loads()[0].force[2] + fluid.loads()[1].force[2], kRoundOff, 1.0);
     }
 
+    void a_part_that_leaves_its_body_takes_its_volume_along()
+    {
+        FluidConfig c = test::lattice_config({22, 14, 14}, 0.8);
+        c.gravity = {0, 0, -1e-4};
+        const double V = 4 * kPi / 3 * 64;
+        Fluid fluid(c);
+        std::vector<Solid> parts{ball(0, {8, 7, 7}, 4, 3), ball(1, {11, 7, 7}, 4, 3), ball(2, {17, 7, 7}, 4, 3)};
+        fluid.place_solids(parts);
+        parts[0].body = -1;  // nobody moves
+        fluid.place_solids(parts);
+        fluid.step();
+        LBM_ASSERT_CLOSE(1e-4 * V, fluid.loads()[0].force[2], kRoundOff, 1.0);
+        LBM_ASSERT_CLOSE(1e-4 * V, fluid.loads()[1].force[2], kRoundOff, 1.0);
+    }
+
     static Solid slab(std::int64_t id, double z, double thickness)
     {
         Solid s;
@@ -272,9 +288,10 @@ class SolidShapes : public CppUnit::TestFixture {
         }
     }
 
-    static void refused(const Solid& s)
+    static void refused(const Solid& s, int walls_along = -1)
     {
         FluidConfig c = test::lattice_config({14, 14, 14}, 0.8);
+        if (walls_along >= 0) test::walls(c, walls_along);
         Fluid fluid(c);
         CPPUNIT_ASSERT_THROW(fluid.place_solids({s}), ConfigError);
     }
@@ -286,6 +303,17 @@ class SolidShapes : public CppUnit::TestFixture {
         Solid skew = slab(0, 3, 4);
         skew.orientation = {1, 1, 0, 0};
         refused(skew);
+        skew.position = {7, 7, 1e3};
+        refused(skew, 2);  // wherever it stands
+        Solid inside_out = slab(0, 3, 4);
+        inside_out.half_extents = {-20, -20, -20};
+        refused(inside_out, 2);
+        inside_out.half_extents = {1e200, 1e200, 1e200};
+        refused(inside_out);
+        Solid rod = slab(0, 3, 4);  // would meet itself across the periodic faces, at another angle
+        rod.half_extents = {10, 2, 2};
+        rod.orientation = {std::cos(0.2), 0, 0, std::sin(0.2)};
+        refused(rod);
         Solid pipe = ball(0, {7, 7, 7}, 7.5);
         pipe.shape = Shape::pipe;
         refused(pipe);

@@ -191,7 +191,7 @@ void Fluid::Implementation::change_faces(const std::array<FaceCondition, 6>& to)
     changed.faces = to;
     for (int face = 0; face < 6; ++face)
         if (to[face].type != config.faces[face].type)
-            throw ConfigError(message("face ", face, " along ", "xyz"[face / 2],
+            throw ConfigError(message("face ", kFaceNames[face],
                                       ": its type cannot change any more; only velocities and pressures may"));
     validate(changed);
     config = changed;

@@ -7,18 +7,6 @@
 #include <algorithm>
 
 namespace lbm {
-namespace {
-
-/// The axes of a box turned by a unit quaternion (w, x, y, z).
-Mat3 rotated_axes(const std::array<double, 4>& q)
-{
-    const auto [w, x, y, z] = q;
-    return {{{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
-             {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
-             {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}}};
-}
-
-}  // namespace
 
 LatticeSolid Fluid::Implementation::in_lattice_units(const Solid& solid) const
 {

@@ -18,7 +18,6 @@ void require_finite(const char* name, const Vec3& v, const char* unit)
 }
 
 constexpr char kAxis[] = "xyz";
-constexpr const char* kFaceNames[6] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
 
 /// Decimal input is off by 1e-15; the mass of the fluid may not drift with more.
 constexpr double kBalanced = 1e-9;
@@ -138,12 +137,10 @@ void validate_pipe(const FluidConfig& c, const Solid& s, const Fail& fail)
 /// Whether any part of a box can lie in the fluid; one that stands outside, as walls of the grains often do, may be as thin as it likes.
 bool reaches_into_fluid(const FluidConfig& c, const Solid& s)
 {
-    const double reach = norm(s.half_extents);
-    const Vec3& h = s.half_extents;
-    const bool turned = s.orientation != std::array<double, 4>{1, 0, 0, 0};
+    const Mat3 axes = rotated_axes(s.orientation);
     for (int d = 0; d < 3; ++d) {
         if (c.faces[2 * d].type == FaceType::periodic) continue;
-        const double half = turned ? reach : h[d], upper = c.lower[d] + c.cells[d] * c.dx;
+        const double half = half_reach(axes, s.half_extents, d), upper = c.lower[d] + c.cells[d] * c.dx;
         if (s.position[d] + half <= c.lower[d] + 1e-6 * c.dx || s.position[d] - half >= upper - 1e-6 * c.dx)
             return false;
     }
@@ -152,17 +149,25 @@ bool reaches_into_fluid(const FluidConfig& c, const Solid& s)
 
 void validate_box(const FluidConfig& c, const Solid& s, const Fail& fail)
 {
-    if (!reaches_into_fluid(c, s)) return;
+    const Mat3 axes = rotated_axes(s.orientation);
     double norm2 = 0;
     for (const double q : s.orientation) norm2 += q * q;
     if (!(std::abs(norm2 - 1) < 1e-6)) fail("orientation: must be a unit quaternion (w, x, y, z)");
-    for (int a = 0; a < 3; ++a) {
-        const double h = s.half_extents[a];
-        if (!(std::isfinite(h) && h >= 0)) fail(message("half extent = ", h, ": must be finite and >= 0 [m]"));
+    for (const double h : s.half_extents)
+        if (!(std::isfinite(h * h) && h >= 0)) fail(message("half extent = ", h, ": must be finite and >= 0 [m]"));
+    if (!reaches_into_fluid(c, s)) return;
+    for (const double h : s.half_extents)
         if (h < kMinHalfExtentInCells * c.dx * (1 - 1e-9))
             fail(message(
                 "thickness = ", 2 * h, " m is ", 2 * h / c.dx,
                 " cells: a box in the fluid must be at least two cells thick; make it thicker, or leave it out"));
+    if (is_along_axes(axes)) return;
+    for (int d = 0; d < 3; ++d) {
+        const double extent = 2 * half_reach(axes, s.half_extents, d), length = c.cells[d] * c.dx;
+        if (c.faces[2 * d].type == FaceType::periodic && extent > length - 1e-6 * c.dx)
+            fail(message("a turned box that reaches over ", extent, " m along ", kAxis[d],
+                         ", where the box of fluid repeats after ", length,
+                         " m: must be shorter, or it would meet itself; only boxes along the axes may be longer"));
     }
 }
 

@@ -6,6 +6,8 @@
 
 namespace lbm {
 
+inline constexpr const char* kFaceNames[6] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};  ///< in messages
+
 /// @throws ConfigError naming the first value outside its range
 void validate(const FluidConfig& config);
 

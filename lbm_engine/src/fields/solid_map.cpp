@@ -50,11 +50,14 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
     const bool any_box =
         std::any_of(solids.begin(), solids.end(), [](const LatticeSolid& s) { return s.geometry.shape == Shape::box; });
     const auto earlier = any_body ? earlier_of_body(solids) : std::vector<std::vector<int>>{};
+    bool bodies_changed = !same_set;
+    for (std::ptrdiff_t s = 0; s < count && !bodies_changed; ++s)
+        bodies_changed = solids_[s].solid.body != solids[s].body;
     std::vector<std::uint8_t> moved(solids.size());
 #pragma omp parallel for schedule(static) if (count > 256)
     for (std::ptrdiff_t s = 0; s < count; ++s)
         moved[s] = !(solids_[s].solid.geometry == solids[s].geometry) || solids_[s].solid.body != solids[s].body ||
-                   (!same_set && solids[s].body >= 0);
+                   (bodies_changed && solids[s].body >= 0);
 
     bool rows_changed = !same_set;
 #pragma omp parallel reduction(|| : rows_changed) if (count > 8)
@@ -88,8 +91,10 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
  */
 void SolidMap::mark_walls()
 {
-    for (std::size_t s = 0; s < solids_.size(); ++s) {
-        MappedSolid& solid = solids_[s];
+    std::vector<const LatticeSolid*> boxes;
+    for (const MappedSolid& solid : solids_)
+        if (solid.solid.geometry.shape == Shape::box) boxes.push_back(&solid.solid);
+    for (MappedSolid& solid : solids_) {
         solid.bounce.clear();
         if (solid.solid.geometry.shape != Shape::box || !solid.whole_cells) continue;
         solid.bounce.assign(solid.fractions.size(), 0);
@@ -98,7 +103,7 @@ void SolidMap::mark_walls()
             const int y = solid.y0 + static_cast<int>(i) % solid.ny, z = solid.z0 + static_cast<int>(i) / solid.ny;
             for (int x = 0; x < span.n; ++x)
                 solid.bounce[span.fractions + x] =
-                    solid.fractions[span.fractions + x] == 1 && is_wall_cell(s, {span.x0 + x, y, z});
+                    solid.fractions[span.fractions + x] == 1 && is_wall_cell(solid.solid, boxes, {span.x0 + x, y, z});
         }
     }
 }
@@ -107,20 +112,16 @@ void SolidMap::mark_walls()
  * Whether a cell of a box may turn populations round: it lies under a surface, and not beside a face of the lattice or another box that moves
  * otherwise. Between two such surfaces in sliding contact populations would grow without bound.
  */
-bool SolidMap::is_wall_cell(std::size_t s, const std::array<int, 3>& cell) const
+bool SolidMap::is_wall_cell(const LatticeSolid& own, const std::vector<const LatticeSolid*>& boxes,
+                            const std::array<int, 3>& cell) const
 {
-    const auto reach = [](const SolidGeometry& g, int d) {  // half of the extent along an axis
-        double half = 0;
-        for (int a = 0; a < 3; ++a) half += std::abs(g.axes[a][d]) * g.half_extents[a];
-        return half;
-    };
+    const auto reach = [](const SolidGeometry& g, int d) { return half_reach(g.axes, g.half_extents, d); };
     // Distance from a cell's centre to the nearest image of a box's centre, along an axis.
     const auto offset = [&](const SolidGeometry& g, int d) {
         double r = cell[d] + 0.5 - g.centre[d];
         if (periodic_[d]) r -= n_[d] * std::round(r / n_[d]);
         return std::abs(r);
     };
-    const LatticeSolid& own = solids_[s].solid;
     bool under_surface = false;
     for (int d = 0; d < 3; ++d) {
         if (!periodic_[d] && (cell[d] == 0 || cell[d] == n_[d] - 1)) return false;
@@ -129,15 +130,12 @@ bool SolidMap::is_wall_cell(std::size_t s, const std::array<int, 3>& cell) const
         under_surface = under_surface || (!fills && offset(own.geometry, d) > half - 1);
     }
     if (!under_surface) return false;
-    for (std::size_t o = 0; o < solids_.size(); ++o) {
-        const LatticeSolid& other = solids_[o].solid;
-        const bool moves_along = other.velocity == own.velocity && other.angular_velocity == own.angular_velocity;
-        if (o == s || other.geometry.shape != Shape::box || moves_along) continue;
+    return std::none_of(boxes.begin(), boxes.end(), [&](const LatticeSolid* other) {
+        if (other->velocity == own.velocity && other->angular_velocity == own.angular_velocity) return false;
         bool beside = true;
-        for (int d = 0; d < 3; ++d) beside = beside && offset(other.geometry, d) < reach(other.geometry, d) + 1.5;
-        if (beside) return false;
-    }
-    return true;
+        for (int d = 0; d < 3; ++d) beside = beside && offset(other->geometry, d) < reach(other->geometry, d) + 1.5;
+        return beside;
+    });
 }
 
 /// The curved part of the strength was fitted on spheres. Elsewhere it is left out: for a bore that is the most accurate, too (docs/physics.md).

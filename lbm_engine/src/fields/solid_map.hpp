@@ -96,7 +96,8 @@ private:
     std::vector<std::vector<int>> earlier_of_body(const std::vector<LatticeSolid>& solids) const;
     double k(const SolidGeometry& geometry) const;
     void mark_walls();
-    bool is_wall_cell(std::size_t s, const std::array<int, 3>& cell) const;
+    bool is_wall_cell(const LatticeSolid& own, const std::vector<const LatticeSolid*>& boxes,
+                      const std::array<int, 3>& cell) const;
     void map(MappedSolid& solid, SolidFraction& fraction, const std::vector<SolidGeometry>& others) const;
     void list_rows();
     /// Whether a row or plane, not wrapped, is part of the box.

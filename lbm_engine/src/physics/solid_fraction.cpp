@@ -125,21 +125,12 @@ bool is_hidden(const std::vector<SolidGeometry>& solids, const Vec3& p)
     });
 }
 
-bool is_along_axes(const Mat3& axes)
-{
-    for (const Vec3& e : axes)
-        for (double component : e)
-            if (std::abs(component) > 1e-9 && std::abs(std::abs(component) - 1) > 1e-9) return false;
-    return true;
-}
-
 }  // namespace
 
 void SolidFraction::evaluate(const SolidGeometry& solid, const std::vector<SolidGeometry>& others)
 {
     Vec3 half{};
-    for (int d = 0; d < 3; ++d)
-        for (int a = 0; a < 3; ++a) half[d] += std::abs(solid.axes[a][d]) * solid.half_extents[a];
+    for (int d = 0; d < 3; ++d) half[d] = half_reach(solid.axes, solid.half_extents, d);
     switch (solid.shape) {
     case Shape::sphere:
         sphere(solid);

@@ -63,7 +63,7 @@ private:
     std::array<int, 3> first_{}, count_{};
     const double* data_ = nullptr;
     std::size_t line_ = 0;  // between rows
-    SphereFraction sphere_, other_;
+    SphereFraction sphere_;
     std::vector<double> own_;                  // fractions that are not a lone sphere's
     std::array<std::vector<double>, 3> axis_;  // while evaluating a box along the axes
 };
