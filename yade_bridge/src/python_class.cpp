@@ -13,11 +13,12 @@ namespace {
 namespace bp = boost::python;
 
 constexpr const char* kDoc =
-    "Resolved viscous fluid in a box, coupled both ways with the spheres of the scene.\n\n"
+    "Resolved viscous fluid in a box, coupled both ways with the spheres and boxes of the scene.\n\n"
     "Put it before NewtonIntegrator in O.engines. The fluid comes into being, at rest, in the first step that YADE "
     "runs; "
     "plan() says before that what it will be and raises ValueError if it cannot be. All quantities are in SI units. "
-    "Attributes of the fluid cannot be changed once it exists. Spheres may be added, erased or clumped at any time. "
+    "Once the fluid exists its attributes are fixed but for boundaryVelocity, boundaryPressure, mask, ids and "
+    "stopFile. Bodies may be added, erased or clumped at any time. "
     "dead=True freezes the fluid and takes its load away; dead=False lets it go on from where it stood.\n\n"
     "O.save and O.load keep the attributes; the fluid itself is not saved in this version and starts from rest in the "
     "first step after loading. Import yadelbm before loading a scene that holds an LbmEngine.";
