@@ -67,6 +67,17 @@ def show_list(cases):
         print(f"{case.name:<{width}}  {case.title}  ({minutes[0]:.1f} min of one core, quick {minutes[1]:.1f})")
 
 
+def shortfalls(cases, folder):
+    """What misses its target, and runs without a result."""
+    found = []
+    for case in cases:
+        good = [result for result in Store(folder, case.name).results if not result.failure]
+        found += [f"{case.name}: {row.quantity}: {report.percent(row.error)}, target {report.bound(row)}"
+                  for row in (case.rows(good) if good else []) if row.met is False]
+        found += [f"{case.name}: {result.arguments}: {result.failure}" for result in Store(folder, case.name).results if result.failure]
+    return found
+
+
 def main():
     parser = argparse.ArgumentParser(prog="scripts/validate", description="Validation studies; scripts/validate --help says more.")
     parser.add_argument("case", nargs="*")
@@ -75,6 +86,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--keep", action="store_true")
     parser.add_argument("--report", action="store_true")
+    parser.add_argument("--check", action="store_true")
     parser.add_argument("--output")
     options = parser.parse_args()
     known = {case.name: case for case in catalogue.CASES}
@@ -91,6 +103,8 @@ def main():
     if not options.report:
         do_runs(cases, folder, options)
     print(report.make(catalogue.CASES, folder, folder + ".md"))
+    if options.check and (found := shortfalls(cases, folder)):
+        sys.exit("\n".join(found))
 
 
 if __name__ == "__main__":

@@ -2,10 +2,12 @@
 
 from .arrays import ARRAYS
 from .channels import CHANNELS
+from .dumb_bell import DUMB_BELL
 from .free import FREE
 from .lubrication import LUBRICATION
 from .packs import PACKS
 from .schemes import STUDY
+from .schemes_geometry import GEOMETRY
 from .spheres import COUETTE_CASE, STREAM, TORQUE, TOWED, WALLS_CASE
 from .suspensions import SUSPENSIONS
 from .tau import TAU
@@ -13,5 +15,5 @@ from .ten_cate import TEN_CATE
 from .time_coupling import TIME_COUPLING
 from .time_steps import TIME_STEPS
 
-CASES = [CHANNELS, ARRAYS, TAU, STUDY, WALLS_CASE, TORQUE, TOWED, LUBRICATION, FREE, TEN_CATE, COUETTE_CASE, STREAM, TIME_COUPLING, TIME_STEPS,
+CASES = [CHANNELS, ARRAYS, TAU, STUDY, GEOMETRY, WALLS_CASE, TORQUE, TOWED, DUMB_BELL, LUBRICATION, FREE, TEN_CATE, COUETTE_CASE, STREAM, TIME_COUPLING, TIME_STEPS,
          PACKS, SUSPENSIONS]

@@ -10,11 +10,11 @@ from .engine import ROOT
 
 
 def this_session(jobs):
-    """Where and when results are made."""
+    """Where and when results are made; the commit is the last one that changed engine or bridge."""
     def git(*words):
         return subprocess.run(["git", "-C", ROOT, *words], capture_output=True, text=True).stdout.strip()
 
-    commit = git("rev-parse", "--short=10", "HEAD") or "unknown"
+    commit = git("log", "-1", "--format=%h", "--abbrev=10", "--", "lbm_engine", "yade_bridge") or "unknown"
     if git("status", "--porcelain", "--untracked-files=no", "--", "lbm_engine", "yade_bridge"):
         commit += " with changes"
     with open("/proc/cpuinfo", encoding="utf-8") as file:
