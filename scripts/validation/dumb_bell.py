@@ -97,7 +97,7 @@ def text(results):
         by_radius = groups(group, "radius")
         spreads = {radius: Spread.of(r["value"] / limit[motion][0] - 1 for r in g) for (radius,), g in by_radius.items()}
         lines.append((motion, f"{limit[motion][0]:.4f} ± {percent(limit[motion][1], signed=False)}",
-                      *(f"{percent(s.mean)} ± {percent(s.scatter, signed=False)}" for s in spreads.values())))
+                      *(percent(s.mean) + (f" ± {percent(s.scatter, signed=False)}" if s.scatter else "") for _, s in sorted(spreads.items()))))
     sizes = [f"R = {radius}" for radius in sorted({r["radius"] for r in pairs(results)})]
     return f"""
 Drag over 6 pi mu R U, torque over 8 pi mu R^3 W; error against the extrapolated value, mean ± half range over offsets. Behind ±: what the extrapolation changed.

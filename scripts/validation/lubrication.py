@@ -111,6 +111,9 @@ def text(results):
 Mean error over the offsets, at gaps in radii:
 
 {table(("", "R", "lubrication", *(f"{g:g}" for g in GAPS)), lines)}
+
+What the box changes is not quite the same at all gaps, least so for the approach of a wall: the errors at 0.75 and 1 radii, which should vanish both, show by how much. "Above 2 cells" includes the gap of 2 cells
+itself (half a radius at R = 4).
 """
 
 
@@ -119,7 +122,7 @@ def figures(results):
         axes = canvas.subplots(1, 2)
         for (motion, radius, lubrication), curve in curves(results).items():
             i = list(MOTIONS).index(motion)
-            axes[lubrication].semilogx([gap for gap, _ in curve], [100 * sum(e) / len(e) for _, e in curve], lw=1,
+            axes[int(lubrication)].semilogx([gap for gap, _ in curve], [100 * sum(e) / len(e) for _, e in curve], lw=1,
                                        color=COLOURS[i], marker=MARKERS[radius // 2 - 2], label=f"{motion}, R = {radius}")
         for axis, title in zip(axes, ("lattice alone", "with films")):
             axis.set(xlabel="gap [cells]", ylabel="error of the load [%]", title=title)

@@ -9,6 +9,7 @@ import tempfile
 from .case import Case, Figure, Row, Run
 from .engine import ONE_THREAD, ROOT, RunFailed
 from .plotting import COLOURS
+from .report import percent
 
 TARGETS = {10: 0.03, 15: 0.015}  # cells per diameter asked for: bound on the peak of E2 to E4
 POINTS = 80  # of a stored trajectory
@@ -54,11 +55,21 @@ def rows(results):
     return found
 
 
+def limits(results, experiment):
+    """Errors at infinite resolution that the two resolutions would lead to, if the error were of first and of second order."""
+    points = sorted((r["diameter"], r["peak"] / r["measured"] - 1) for r in results if r["experiment"] == experiment)
+    if len(points) < 2:
+        return ""
+    (d, coarse), (fine_d, fine) = points[0], points[-1]
+    ends = [fine + (fine - coarse) / ((fine_d / d) ** order - 1) for order in (1, 2)]
+    return f" From {d:.3g} to {fine_d:.3g} cells the peak of {experiment} moves as an error of first order would that ends at {percent(ends[0])}, or one of second order that ends at {percent(ends[1])}."
+
+
 def text(results):
-    return """
+    return f"""
 The measured peak of E1 (0.0360 m/s) lies above what Stokes drag between the six walls allows (0.0355 m/s, without inertia and after an endless fall); no correct computation reaches it, so it has no
 target. The terminal velocity in the box is an upper bound of the peak: the fall is finite. What is left at Re = 30 is resolution: boundary layers and wake of a sphere of ten cells. It does not move
-with tau or the Mach number (docs/physics.md).
+with tau or the Mach number (docs/physics.md).{limits(results, "E4")}
 """
 
 
