@@ -47,8 +47,6 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
     }
     const auto count = static_cast<std::ptrdiff_t>(solids.size());
     const bool any_body = std::any_of(solids.begin(), solids.end(), [](const LatticeSolid& s) { return s.body >= 0; });
-    const bool any_box =
-        std::any_of(solids.begin(), solids.end(), [](const LatticeSolid& s) { return s.geometry.shape == Shape::box; });
     const auto earlier = any_body ? earlier_of_body(solids) : std::vector<std::vector<int>>{};
     bool bodies_changed = !same_set;
     for (std::ptrdiff_t s = 0; s < count && !bodies_changed; ++s)
@@ -58,6 +56,13 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
     for (std::ptrdiff_t s = 0; s < count; ++s)
         moved[s] = !(solids_[s].solid.geometry == solids[s].geometry) || solids_[s].solid.body != solids[s].body ||
                    (bodies_changed && solids[s].body >= 0);
+    bool boxes_changed = false;
+    for (std::ptrdiff_t s = 0; s < count; ++s) {
+        if (solids[s].geometry.shape != Shape::box) continue;
+        const LatticeSolid& before = solids_[s].solid;
+        boxes_changed = boxes_changed || !same_set || moved[s] || before.velocity != solids[s].velocity ||
+                        before.angular_velocity != solids[s].angular_velocity;
+    }
 
     bool rows_changed = !same_set;
 #pragma omp parallel reduction(|| : rows_changed) if (count > 8)
@@ -82,12 +87,12 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
         }
     }
     if (rows_changed) list_rows();
-    if (any_box) mark_walls();
+    if (boxes_changed) mark_walls();
 }
 
 /**
  * Boxes whose surface runs along the lattice turn populations round in their outermost cells: the wall then stands exactly half-way to the fluid.
- * Marked anew in every update that has boxes: there are few, and it depends on where the others are.
+ * Which ones these are depends on the other boxes too, so all are marked anew when one of them changed.
  */
 void SolidMap::mark_walls()
 {
@@ -235,7 +240,7 @@ std::size_t SolidMap::memory_bytes() const
     std::size_t bytes = row_begin_.capacity() * sizeof(row_begin_[0]) + entries_.capacity() * sizeof(RowEntry);
     for (const MappedSolid& s : solids_)
         bytes += sizeof(s) + s.spans.capacity() * sizeof(Span) + s.fractions.capacity() * sizeof(double) +
-                 s.sums.capacity() * sizeof(SpanSums);
+                 s.bounce.capacity() + s.sums.capacity() * sizeof(SpanSums);
     return bytes;
 }
 
