@@ -69,14 +69,16 @@ def summary(rows):
           percent(row.scatter, signed=False), bound(row), verdict(row)) for name, row in rows])
 
 
-def provenance(store):
+def provenance(case, store):
     """What the results of a case took, and where they were made."""
     seconds = sum(result.seconds for result in store.results)
     updates = sum(result.values.get("cells", 0) * result.values.get("steps", 0) for result in store.results) / 1e9
     commits = ", ".join(dict.fromkeys(session["commit"] for session in store.sessions))
     dates = ", ".join(dict.fromkeys(session["date"][:10] for session in store.sessions))
     cpus = ", ".join(dict.fromkeys(session["cpu"] for session in store.sessions))
-    return (f"{len(store.results)} runs, {updates:.3g} x 10^9 cell updates, {seconds:.0f} s of one core ({cpus}); "
+    planned = case.runs(False)
+    done = sum(store.find(run) is not None for run in planned)
+    return (f"{done} of {len(planned)} runs of the full tier, {updates:.3g} x 10^9 cell updates, {seconds:.0f} s of one core ({cpus}); "
             f"commit {commits}; {dates}.")
 
 
@@ -90,7 +92,7 @@ def section(case, store, rows, good, images, folder):
     if failed:
         parts.append("Runs that ended without a result:\n\n" + "\n".join(
             f"- {', '.join(f'{key} {value}' for key, value in result.arguments.items())}: {result.failure}" for result in failed))
-    parts.append(provenance(store))
+    parts.append(provenance(case, store))
     return "\n\n".join(part for part in parts if part)
 
 

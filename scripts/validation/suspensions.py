@@ -55,7 +55,7 @@ def settling_rows(results):
     points = [(r["phi"], r["ratio"]) for r in of(results, settling)]
     found = [Row(f"settling velocity against Richardson & Zaki (n = 4.65), phi = {phi:g}", "d = 8", "1",
                  value / float(SETTLING[phi]["RZ_n4.65"]) - 1) for phi, value in points]
-    if len(points) > 1:
+    if len(points) > 2:
         n = exponent(points, lambda phi, value: value)
         found.insert(0, Row(f"exponent n = {n:.2f} of (1 - phi)^n: n - 4.65, absolute", "d = 8", "1", n - 4.65, 0.2))
     return found
