@@ -103,7 +103,8 @@ class Sediment:
         cloud.toSimulation(material=material)
         self.ids = [body.id for body in O.bodies if isinstance(body.shape, Sphere)]
 
-        self.fluid = LbmEngine(lower=(0, 0, 0), upper=(WIDTH, WIDTH, self.height), dx=self.dx, density=LIQUID_DENSITY,
+        self.fluid = LbmEngine(
+        lubrication=False,  # with films a pile in undamped contacts jiggles for longlower=(0, 0, 0), upper=(WIDTH, WIDTH, self.height), dx=self.dx, density=LIQUID_DENSITY,
                                viscosity=VISCOSITY, gravity=(0, 0, -GRAVITY), boundary=["noSlip"] * 6,
                                tau=0.5 + 3 * nu * fluid_step / self.dx**2, label="fluid")
         O.engines = [

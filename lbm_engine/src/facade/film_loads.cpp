@@ -6,13 +6,21 @@ namespace {
 /// Share of the newest step in the smoothed force of weight and contacts. One would follow at once, and ring with contacts.
 constexpr double kNewest = 0.2;
 
+/// v, shortened to a length if it is longer.
+Vec3 limited(const Vec3& v, double length)
+{
+    const double is = norm(v);
+    return is > length ? (length / is) * v : v;
+}
+
 void follow(Vec3& smoothed, const Vec3& seen) { smoothed += kNewest * (seen - smoothed); }
 
 }  // namespace
 
 /**
  * Adds what the lattice does not resolve of narrow gaps. Films are solved for the velocities at the end of the step, which need all forces: the fluid's are
- * known, weight and contacts are taken from how the solid moved in the last steps. Where solids touch, contacts change too fast for that, and are left out.
+ * known, weight and contacts are taken from how the solid moved in the last steps. Where solids touch, contacts change too fast for that: there the
+ * change foreseen is at most the motion itself, so that films only ever slow it down and grains at rest on each other feel none.
  */
 void Fluid::Implementation::add_film_loads()
 {
@@ -44,7 +52,8 @@ void Fluid::Implementation::add_film_loads()
                        (1 / film_dt) * (solid.mass * (solid.velocity - memory.velocity) - memory.impulse));
             else memory.other_force = {};
             motion.inverse_mass = units.mass / solid.mass;
-            motion.velocity += (dt / solid.mass / units.velocity) * (loads[s].force + memory.other_force);
+            const Vec3 gain = (dt / solid.mass / units.velocity) * (loads[s].force + memory.other_force);
+            motion.velocity += foresee ? gain : limited(gain, norm(motion.velocity));
         }
         if (std::isfinite(solid.inertia)) {
             if (foresee)
@@ -53,7 +62,8 @@ void Fluid::Implementation::add_film_loads()
                                         memory.angular_impulse));
             else memory.other_torque = {};
             motion.inverse_inertia = units.inertia / solid.inertia;
-            motion.angular_velocity += (dt * units.time / solid.inertia) * (loads[s].torque + memory.other_torque);
+            const Vec3 gain = (dt * units.time / solid.inertia) * (loads[s].torque + memory.other_torque);
+            motion.angular_velocity += foresee ? gain : limited(gain, norm(motion.angular_velocity));
         }
     }
     const auto& film_loads = films.solve(film_spheres, walls);
