@@ -55,6 +55,7 @@ class Lubrication : public CppUnit::TestFixture {
     CPPUNIT_TEST(parts_of_a_body_and_deep_overlaps_have_no_film);
     CPPUNIT_TEST(approaching_spheres_feel_the_exact_force);
     CPPUNIT_TEST(approach_of_a_wall_meets_the_exact_force);
+    CPPUNIT_TEST(grains_at_rest_in_contact_feel_buoyancy_alone);
     CPPUNIT_TEST(light_spheres_pushed_together_do_not_bounce);
     CPPUNIT_TEST(a_pushed_sphere_closes_its_gap_at_the_exact_speed);
     CPPUNIT_TEST(a_dense_suspension_comes_to_rest_and_keeps_its_momentum);
@@ -343,6 +344,24 @@ class Lubrication : public CppUnit::TestFixture {
             s.velocity += (1 / s.mass) * (fluid.loads()[i].force + push[i]);
             s.angular_velocity += (1 / s.inertia) * fluid.loads()[i].torque;
             s.position += s.velocity;
+        }
+    }
+
+    /// A contact carries what is left of its weight; films must not answer for a load that leads to no motion.
+    void grains_at_rest_in_contact_feel_buoyancy_alone()
+    {
+        FluidConfig c = test::lattice_config({26, 18, 18}, 0.8);
+        c.gravity = {0, 0, -1e-4};
+        test::walls(c, 2);
+        Fluid fluid(c);
+        const double buoyancy = 1e-4 * 4 * kPi / 3 * 64;
+        for (int t = 0; t < 30; ++t) {
+            fluid.place_solids({free_sphere(0, 4, 2.5, {8, 9, 4}), free_sphere(1, 4, 2.5, {16, 9, 4})});
+            fluid.step();
+            for (const SolidLoad& load : fluid.loads()) {
+                LBM_ASSERT_CLOSE(0.0, load.force[0], 1e-12, buoyancy);
+                LBM_ASSERT_CLOSE(buoyancy, load.force[2], 1e-12, buoyancy);
+            }
         }
     }
 

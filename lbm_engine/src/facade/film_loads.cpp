@@ -20,7 +20,7 @@ void follow(Vec3& smoothed, const Vec3& seen) { smoothed += kNewest * (seen - sm
 /**
  * Adds what the lattice does not resolve of narrow gaps. Films are solved for the velocities at the end of the step, which need all forces: the fluid's are
  * known, weight and contacts are taken from how the solid moved in the last steps. Where solids touch, contacts change too fast for that: there the
- * change foreseen is at most the motion itself, so that films only ever slow it down and grains at rest on each other feel none.
+ * change foreseen is at most the motion itself, so that grains at rest on each other feel no film.
  */
 void Fluid::Implementation::add_film_loads()
 {
