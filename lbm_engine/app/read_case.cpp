@@ -238,6 +238,7 @@ Case read_case(const Json& json)
     fluid.lubrication_roughness = root.number("lubrication_roughness", fluid.lubrication_roughness);
     fluid.acceleration = root.vector("acceleration", {});
     fluid.gravity = root.vector("gravity", {});
+    fluid.initial_velocity = root.vector("initial_velocity", {});
     fluid.max_mach = root.number("max_mach", fluid.max_mach);
     fluid.threads = static_cast<int>(std::min<std::int64_t>(root.count("threads", 0), 4096));
     if (root.has("boundaries")) read_boundaries(root.section("boundaries"), fluid);

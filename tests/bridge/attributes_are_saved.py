@@ -12,6 +12,7 @@ VALUES = dict(
     viscosity=0.373,
     gravity=(0, 0.5, -9.81),
     acceleration=(1e-3, 0, 0),
+    initialVelocity=(0.01, 0, 0.02),
     boundary=["periodic", "periodic", "noSlip", "noSlip", "pressure", "noSlip"],
     boundaryVelocity=[(0, 0, 0), (0, 0, 0), (0.01, 0, 0), (0, 0, 0), (0, 0, 0), (0, 0.02, 0)],
     boundaryPressure=[0.0, 0.0, 0.0, 0.0, 1.5, 0.0],

@@ -80,6 +80,7 @@ class FacesOfTheBox : public CppUnit::TestFixture {
     CPPUNIT_TEST(an_array_driven_by_pressure_does_not_know_tau);
     CPPUNIT_TEST(a_duct_lets_out_what_comes_in);
     CPPUNIT_TEST(plug_flow_passes_velocity_and_pressure_faces_unchanged);
+    CPPUNIT_TEST(a_stream_that_is_there_at_the_start_makes_no_sound);
     CPPUNIT_TEST(bernoulli_holds_between_pressure_faces);
     CPPUNIT_TEST(mass_changes_by_what_passes_the_faces);
     CPPUNIT_TEST(momentum_changes_by_drive_faces_and_loads);
@@ -289,6 +290,24 @@ class FacesOfTheBox : public CppUnit::TestFixture {
                     LBM_ASSERT_CLOSE(u / rho, velocity[3 * cell], tolerance, 1.0);
                 }
             }
+    }
+
+    void a_stream_that_is_there_at_the_start_makes_no_sound()
+    {
+        FluidConfig c = test::lattice_config({9, 3, 4}, 0.6);
+        pair(c, 2, of(FaceType::free_slip), of(FaceType::free_slip));
+        pair(c, 0, with_velocity({0.06, 0, 0}), at_pressure(0));
+        c.initial_velocity = {0.06, 0, 0};
+        for (const Storage storage : {Storage::double_precision, Storage::single_precision}) {
+            c.storage = storage;
+            Fluid fluid(c);
+            run(fluid, 51);
+            const double round_off = storage == Storage::double_precision ? kRoundOff : 1e-6;
+            for (const double p : fluid.pressure_field()) LBM_ASSERT_CLOSE(0.0, p, round_off, 0.06);
+            const auto velocity = fluid.velocity_field();
+            for (std::size_t i = 0; i < velocity.size(); ++i)
+                LBM_ASSERT_CLOSE(i % 3 ? 0 : 0.06, velocity[i], round_off, 0.06);
+        }
     }
 
     void bernoulli_holds_between_pressure_faces()
@@ -610,6 +629,22 @@ class FacesOfTheBox : public CppUnit::TestFixture {
                           "more out than in");
         CPPUNIT_ASSERT(refusal([](auto& c) {
                            pair(c, 0, with_velocity({0.01, 0, 0}), with_velocity({0.01, 0, 0}));
+                       }).empty());
+        // nu = 0.1
+        test::assert_says(
+            refusal([](auto& c) {
+                pair(c, 0, with_velocity({0.32, 0, 0}), with_velocity({0.32, 0, 0}));
+            }),
+            "velocity of face xmax = 0.32 m/s along its normal: u dx / nu = 3.2 is unstable, at most 3 is "
+            "possible where fluid leaves; use dx <= 0.9375 m, or a pressure face");
+        test::assert_says(
+            refusal([](auto& c) {
+                pair(c, 0, with_velocity({1.1, 0, 0}), at_pressure(0));
+            }),
+            "u dx / nu = 11 is unstable, at most 10 is possible where fluid enters; use dx <= 0.9090909 m");
+        CPPUNIT_ASSERT(refusal([](auto& c) {
+                           c.inertia = false;
+                           pair(c, 0, with_velocity({1.1, 0, 0}), with_velocity({1.1, 0, 0}));
                        }).empty());
         test::assert_says(refusal([](auto& c) {
                               c.faces[kYMax] = {FaceType::free_slip, {0.1, 0, 0}, 0};

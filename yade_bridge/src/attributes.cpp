@@ -38,6 +38,9 @@ const std::vector<Attribute>& attributes()
                           "gravity. The hydrostatic pressure is left out of the fields. Use the integrator's value."),
         YADELBM_ATTRIBUTE("acceleration", acceleration, false,
                           "Uniform drive [m/s2], default 0: a mean pressure gradient of -density acceleration."),
+        YADELBM_ATTRIBUTE("initialVelocity", initial_velocity, false,
+                          "Velocity of all fluid at the start [m/s], default 0. In a stream between a velocity and a "
+                          "pressure face, that of the stream: no wave of sound runs through the box then."),
         YADELBM_ATTRIBUTE(
             "boundary", boundary, false,
             "What the faces xmin, xmax, ymin, ymax, zmin, zmax of the box are: six of 'periodic' (both "

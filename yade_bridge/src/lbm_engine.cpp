@@ -164,9 +164,9 @@ double LbmEngine::length_of_last_grain_step(const yade::Scene& now) const
 void LbmEngine::step_fluid()
 {
     check_place(*scene);
-    check_cell(*scene, settings_);
     const Stopwatch in;
     read_solids(*scene, {settings_.mask, settings_.ids}, schedule_.lead(), solids_);
+    check_cell(*scene, settings_, solids_);
     if (selection_changed_) check_selection(settings_, solids_);
     selection_changed_ = false;
     account(kStatesIn, in.seconds(), 1);

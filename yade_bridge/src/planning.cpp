@@ -82,23 +82,28 @@ void check_selection(const Settings& s, const std::vector<lbm::Solid>& solids)
                                std::to_string(s.mask) + "): append spheres to O.bodies first, or change mask");
 }
 
-void check_cell(const yade::Scene& scene, const Settings& s)
+void check_cell(const yade::Scene& scene, const Settings& s, const std::vector<lbm::Solid>& solids)
 {
     if (!scene.isPeriodic) return;
+    double largest_diameter = 0;
+    for (const lbm::Solid& solid : solids)
+        if (solid.shape == lbm::Shape::sphere) largest_diameter = std::max(largest_diameter, 2 * solid.radius);
     const yade::Matrix3r& cell = scene.cell->hSize;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
-            const double wanted = i == j ? s.upper[i] - s.lower[i] : 0;
-            if (std::abs(cell(i, j) - wanted) > kSameLength * (s.upper[i] - s.lower[i]))
-                throw lbm::ConfigError("O.cell.hSize[" + std::to_string(i) + "][" + std::to_string(j) +
-                                       "] = " + text(cell(i, j)) + ": must be " + text(wanted) +
+            const double length = s.upper[i] - s.lower[i];
+            const std::string name = "O.cell.hSize[" + std::to_string(i) + "][" + std::to_string(j) + "] = ";
+            if (i == j && s.boundary[2 * i] != "periodic") {
+                if (cell(i, i) > length + largest_diameter) continue;
+                throw lbm::ConfigError(name + text(cell(i, i)) + ": must be above " + text(length + largest_diameter) +
+                                       ", the fluid's box and a diameter, where faces of the box are '" +
+                                       s.boundary[2 * i] + "': grains at opposite faces would touch across the cell");
+            }
+            const double wanted = i == j ? length : 0;
+            if (std::abs(cell(i, j) - wanted) > kSameLength * length)
+                throw lbm::ConfigError(name + text(cell(i, j)) + ": must be " + text(wanted) +
                                        " to match the fluid's box; a deforming cell is not supported today");
         }
-    for (int axis = 0; axis < 3; ++axis)
-        if (s.boundary[2 * axis] != "periodic")
-            throw lbm::ConfigError(std::string("LbmEngine.boundary along ") + "xyz"[axis] + " is '" +
-                                   s.boundary[2 * axis] +
-                                   "' while the scene is periodic: use 'periodic' for all faces");
 }
 
 void check_scene(const yade::Scene& scene, const Settings& s, const std::vector<lbm::Solid>& solids)
@@ -107,7 +112,7 @@ void check_scene(const yade::Scene& scene, const Settings& s, const std::vector<
     if (!(std::isfinite(scene.dt) && scene.dt > 0))
         throw lbm::ConfigError("O.dt = " + text(scene.dt) + ": must be finite and > 0 [s]");
     check_place(scene);
-    check_cell(scene, s);
+    check_cell(scene, s, solids);
     check_selection(s, solids);
     check_spheres(s, solids);
 }

@@ -25,8 +25,8 @@ void check_scene(const yade::Scene& scene, const Settings& settings, const std::
 
 /// @throws lbm::ConfigError  unless the scene has one fluid, listed once and before the integrator
 void check_place(const yade::Scene& scene);
-/// @throws lbm::ConfigError  unless the cell of a periodic scene is the fluid's box
-void check_cell(const yade::Scene& scene, const Settings& settings);
+/// @throws lbm::ConfigError  unless the cell of a periodic scene is the fluid's box where that is periodic, and longer by more than a diameter elsewhere
+void check_cell(const yade::Scene& scene, const Settings& settings, const std::vector<lbm::Solid>& solids);
 /// @throws lbm::ConfigError  if an id of the settings is not among the solids, or there are none
 void check_selection(const Settings& settings, const std::vector<lbm::Solid>& solids);
 

@@ -23,6 +23,7 @@ void LbmEngine::serialize(Archive& archive, unsigned int)
     archive& make_nvp("viscosity", settings_.viscosity);
     archive& make_nvp("gravity", settings_.gravity);
     archive& make_nvp("acceleration", settings_.acceleration);
+    archive& make_nvp("initialVelocity", settings_.initial_velocity);
     archive& make_nvp("boundary", settings_.boundary);
     archive& make_nvp("boundaryVelocity", settings_.boundary_velocity);
     archive& make_nvp("boundaryPressure", settings_.boundary_pressure);

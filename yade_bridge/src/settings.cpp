@@ -64,6 +64,7 @@ void check_numbers(const Settings& s, bool complete)
     require_finite("lower", s.lower, "m");
     require_finite("gravity", s.gravity, "m/s2");
     require_finite("acceleration", s.acceleration, "m/s2");
+    require_finite("initialVelocity", s.initial_velocity, "m/s");
     if (complete || !upper_unset(s)) require_finite("upper", s.upper, "m");
     if (!std::isnan(s.tau) && !(s.tau >= lbm::kMinTau && s.tau <= lbm::kMaxTau))
         refuse("tau", text(s.tau),
@@ -219,6 +220,7 @@ lbm::FluidConfig fluid_config(const Settings& s, double tau, int threads)
     config.magic_parameter = s.magic_parameter;
     config.gravity = s.gravity;
     config.acceleration = s.acceleration;
+    config.initial_velocity = s.initial_velocity;
     config.faces = face_conditions(s);
     config.scheme = scheme(s.scheme);
     config.collision = s.collision == "bgk" ? lbm::Collision::bgk : lbm::Collision::trt;

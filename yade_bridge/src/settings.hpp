@@ -20,6 +20,7 @@ struct Settings {
     double viscosity = kUnset;
     lbm::Vec3 gravity{};
     lbm::Vec3 acceleration{};
+    lbm::Vec3 initial_velocity{};
     std::vector<std::string> boundary = std::vector<std::string>(6, "noSlip");
     std::vector<lbm::Vec3> boundary_velocity = std::vector<lbm::Vec3>(6);
     std::vector<double> boundary_pressure = std::vector<double>(6);

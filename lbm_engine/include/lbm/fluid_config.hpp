@@ -52,8 +52,9 @@ struct FluidConfig {
     double viscosity = 0;        ///< dynamic [Pa s], > 0
     double tau = 0;              ///< relaxation time [fluid steps], kMinTau to kMaxTau; sets the time step
     double magic_parameter = std::numeric_limits<double>::quiet_NaN();  ///< Lambda > 0; NaN: the scheme's own
-    Vec3 gravity{};       ///< buoyancy on solids [m/s2]; hydrostatic pressure is left out of the fields
-    Vec3 acceleration{};  ///< uniform drive: a mean pressure gradient of -density * acceleration [m/s2]
+    Vec3 gravity{};           ///< buoyancy on solids [m/s2]; hydrostatic pressure is left out of the fields
+    Vec3 acceleration{};      ///< uniform drive: a mean pressure gradient of -density * acceleration [m/s2]
+    Vec3 initial_velocity{};  ///< of the fluid at the start, everywhere [m/s]
     std::array<FaceCondition, 6> faces{};
     bool inertia = true;  ///< false: Stokes flow, the quadratic terms dropped
     Scheme scheme = Scheme::exact;

@@ -94,23 +94,29 @@ Fluid::Implementation::Implementation(const FluidConfig& c)
     , map(c.cells, periodic_axes(c), Weighting(c.lattice, magic_parameter(c)))
     , films(c.cells, periodic_axes(c), c.lubrication_roughness)
 {
-    start_at(mean_face_pressure(lattice_faces(c, units)));
+    start_at(mean_face_pressure(lattice_faces(c, units)), (1 / units.velocity) * c.initial_velocity);
 }
 
-/// Gives the fluid at rest a density deviation. All slots, since what left through the faces has to fit too.
-void Fluid::Implementation::start_at(double drho)
+/// The fluid in equilibrium at one density and velocity. All slots, since what left through the faces has to fit too.
+void Fluid::Implementation::start_at(double drho, const Vec3& u)
 {
-    if (drho == 0) return;
+    if (drho == 0 && u == Vec3{}) return;
     const ThreadCount threads(config.threads);
     std::visit(
         [&]<class L, class T>(Populations<L, T>& f) {
             const Layout<L>& layout = f.layout;
+            T equilibrium[L::Q];
+            const double rho = config.inertia ? 1 + drho : 1, u2 = config.inertia ? dot(u, u) : 0;
+            for (int i = 0; i < L::Q; ++i) {
+                const double cu = L::c[i][0] * u[0] + L::c[i][1] * u[1] + L::c[i][2] * u[2];
+                const double square = config.inertia ? 4.5 * cu * cu : 0;
+                equilibrium[i] = static_cast<T>(L::w(i) * (drho + rho * (3 * cu + square - 1.5 * u2)));
+            }
 #pragma omp parallel for schedule(static)
             for (int z = -1; z <= layout.n[2]; ++z)
                 for (int y = -1; y <= layout.n[1]; ++y)
                     for (int i = 0; i < L::Q; ++i)
-                        std::fill_n(f.data() + layout.slot(i, -1, y, z), layout.n[0] + 2,
-                                    static_cast<T>(L::w(i) * drho));
+                        std::fill_n(f.data() + layout.slot(i, -1, y, z), layout.n[0] + 2, equilibrium[i]);
         },
         populations);
 }

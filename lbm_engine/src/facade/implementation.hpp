@@ -69,7 +69,7 @@ struct Fluid::Implementation {
 
     explicit Implementation(const FluidConfig& c);
 
-    void start_at(double drho);
+    void start_at(double drho, const Vec3& u);
     void place(const std::vector<Solid>& now);
     /// Whether a solid goes on being what it was; one that jumped by more than its radius is another one.
     bool is_same(const Solid& now, const Solid& before) const;

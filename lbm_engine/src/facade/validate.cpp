@@ -25,6 +25,24 @@ constexpr double kBalanced = 1e-9;
 /// Of the density, by a pressure face: beyond, a liquid of constant density is not what is computed. The planner's limit too.
 constexpr double kLargestDensityDeviation = 0.2;
 
+/// Largest u_n dx / nu at a velocity face in a flow with inertia. Beyond, perturbations along the face grow: the linear stability of the lattice between such
+/// faces is lost between 3 and 4 where fluid leaves (whose tangential velocity has to change over nu / u_n), between 10 and 12 where it enters.
+constexpr double kLargestOutflow = 3, kLargestInflow = 10;
+
+void validate_passage(const FluidConfig& c, int index)
+{
+    const FaceCondition& face = c.faces[index];
+    if (face.type != FaceType::velocity || !c.inertia) return;
+    const double outwards = (index % 2 ? 1 : -1) * face.velocity[index / 2];
+    const double cell_reynolds = std::abs(outwards) * c.dx * c.density / c.viscosity;
+    const double limit = outwards > 0 ? kLargestOutflow : kLargestInflow;
+    if (cell_reynolds > limit * (1 + 1e-9))
+        throw ConfigError(message("velocity of face ", kFaceNames[index], " = ", face.velocity[index / 2],
+                                  " m/s along its normal: u dx / nu = ", cell_reynolds, " is unstable, at most ", limit,
+                                  " is possible where fluid ", outwards > 0 ? "leaves" : "enters", "; use dx <= ",
+                                  c.dx * limit / cell_reynolds, outwards > 0 ? " m, or a pressure face" : " m"));
+}
+
 void validate_face(const FluidConfig& c, int index)
 {
     const FaceCondition& face = c.faces[index];
@@ -42,6 +60,7 @@ void validate_face(const FluidConfig& c, int index)
     if (face.type != FaceType::pressure && face.pressure != 0)
         throw ConfigError(
             message("pressure of face ", name, " = ", face.pressure, " Pa: only a pressure face has one"));
+    validate_passage(c, index);
     const double dt = fluid_time_step(c.tau, c.dx, c.viscosity / c.density);
     const double bulk_modulus = c.density * c.dx * c.dx / (3 * dt * dt);
     const double deviation = std::abs(face.pressure) / bulk_modulus;
@@ -97,6 +116,7 @@ void validate(const FluidConfig& c)
     require_finite("lower", c.lower, "m");
     require_finite("gravity", c.gravity, "m/s2");
     require_finite("acceleration", c.acceleration, "m/s2");
+    require_finite("initial_velocity", c.initial_velocity, "m/s");
     if (c.threads < 0) throw ConfigError(message("threads = ", c.threads, ": must be >= 0; 0 leaves it to OpenMP"));
     for (int d = 0; d < 3; ++d) {
         const FaceCondition &low = c.faces[2 * d], &high = c.faces[2 * d + 1];
