@@ -62,24 +62,40 @@ public:
         for (const CaseSolid& s : input.solids) solids_.push_back(s.solid);
     }
     const std::vector<Solid>& solids() const noexcept { return solids_; }
-    /// Semi-implicit Euler: velocities with the loads (and weight), then positions.
-    void advance(const std::vector<SolidLoad>& loads)
+    /// Semi-implicit Euler: velocities with the loads and weight, then those of the films, which need these, then positions.
+    /// @return loads and films together
+    const std::vector<SolidLoad>& advance(Fluid& fluid)
+    {
+        loads_ = fluid.loads();
+        accelerate(loads_, gravity_);
+        const auto& films = fluid.film_loads(solids_, dt_);
+        accelerate(films, {});
+        for (std::size_t s = 0; s < solids_.size(); ++s) {
+            for (int d = 0; d < 3; ++d) {
+                loads_[s].force[d] += films[s].force[d];
+                loads_[s].torque[d] += films[s].torque[d];
+                for (int e = 0; e < 3; ++e) loads_[s].stresslet[d][e] += films[s].stresslet[d][e];
+                if (kinds_[s].free || kinds_[s].moving) solids_[s].position[d] += dt_ * solids_[s].velocity[d];
+            }
+        }
+        return loads_;
+    }
+
+private:
+    void accelerate(const std::vector<SolidLoad>& loads, const Vec3& gravity)
     {
         for (std::size_t s = 0; s < solids_.size(); ++s) {
-            Solid& solid = solids_[s];
+            if (!kinds_[s].free) continue;
             for (int d = 0; d < 3; ++d) {
-                if (kinds_[s].free) {
-                    solid.velocity[d] += dt_ * (loads[s].force[d] / solid.mass + gravity_[d]);
-                    solid.angular_velocity[d] += dt_ * loads[s].torque[d] / solid.inertia;
-                }
-                if (kinds_[s].free || kinds_[s].moving) solid.position[d] += dt_ * solid.velocity[d];
+                solids_[s].velocity[d] += dt_ * (loads[s].force[d] / solids_[s].mass + gravity[d]);
+                solids_[s].angular_velocity[d] += dt_ * loads[s].torque[d] / solids_[s].inertia;
             }
         }
     }
 
-private:
     std::vector<CaseSolid> kinds_;
     std::vector<Solid> solids_;
+    std::vector<SolidLoad> loads_;
     double dt_;
     Vec3 gravity_;
 };
@@ -108,7 +124,8 @@ CaseResult run_case(const Case& input, const std::function<void(const Progress&)
     const double mass = fluid.total_mass();
     const std::int64_t steps_between = window(input.fluid);
 
-    const auto snapshot = [&] { return Snapshot{fluid.average_velocity(), fluid.loads()}; };
+    std::vector<SolidLoad> loads = fluid.loads();
+    const auto snapshot = [&] { return Snapshot{fluid.average_velocity(), loads}; };
     std::vector<double> radius;
     for (const Solid& s : motion.solids()) radius.push_back(s.shape == Shape::box ? size(s.half_extents) : s.radius);
     Snapshot before = snapshot();
@@ -125,7 +142,7 @@ CaseResult run_case(const Case& input, const std::function<void(const Progress&)
         } catch (const RunError& error) {
             throw RunError(error.what() + kept_state(fluid, input.vtk));
         }
-        motion.advance(fluid.loads());
+        loads = motion.advance(fluid);
         fluid.place_solids(motion.solids());
         if (input.steady > 0 && fluid.steps() % steps_between == 0) {
             Snapshot now = snapshot();
@@ -149,7 +166,7 @@ CaseResult run_case(const Case& input, const std::function<void(const Progress&)
     json["solids"] = nlohmann::json::array();
     for (std::size_t s = 0; s < motion.solids().size(); ++s) {
         const Solid& solid = motion.solids()[s];
-        const SolidLoad& load = fluid.loads()[s];
+        const SolidLoad& load = loads[s];
         json["solids"].push_back({{"force", load.force},
                                   {"torque", load.torque},
                                   {"stresslet", load.stresslet},

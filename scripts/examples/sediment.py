@@ -103,10 +103,9 @@ class Sediment:
         cloud.toSimulation(material=material)
         self.ids = [body.id for body in O.bodies if isinstance(body.shape, Sphere)]
 
-        # Without films: with them a pile in undamped contacts does not come quite to rest.
         self.fluid = LbmEngine(lower=(0, 0, 0), upper=(WIDTH, WIDTH, self.height), dx=self.dx, density=LIQUID_DENSITY,
                                viscosity=VISCOSITY, gravity=(0, 0, -GRAVITY), boundary=["noSlip"] * 6,
-                               tau=0.5 + 3 * nu * fluid_step / self.dx**2, lubrication=False, label="fluid")
+                               tau=0.5 + 3 * nu * fluid_step / self.dx**2, label="fluid")
         O.engines = [
             ForceResetter(),
             InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=0.1 * smallest),

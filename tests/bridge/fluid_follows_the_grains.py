@@ -371,7 +371,7 @@ def timing_shows_the_parts():
 
     O.timingEnabled = False
     parts = [part[0] for part in fluid.timingDeltas.data]
-    check(parts == ["states in", "map", "exchange", "collide-stream", "loads", "loads out"], "parts: %s" % parts)
+    check(parts == ["states in", "map", "exchange", "collide-stream", "loads", "loads out", "films"], "parts: %s" % parts)
     check(fluid.timingDeltas.data[3][2] == 100, "%d fluid steps counted" % fluid.timingDeltas.data[3][2])
     inner, outer = sum(part[1] for part in fluid.timingDeltas.data), fluid.execTime
     check(0.5 * outer < inner <= 1.02 * outer, "parts take %g of %g ns" % (inner, outer))

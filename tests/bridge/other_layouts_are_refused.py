@@ -11,6 +11,7 @@ DIFFERENCES = [
     "Body.clumpId=156", "Engine.scene=32", "Engine.dead=65", "Engine.ompThreads=72", "Engine.label=80", "Scene.dt=432",
     "Scene.iter=456", "Scene.time=472", "Scene.isPeriodic=500", "Scene.engines=576", "Scene.bodies=616", "Scene.cell=704",
     "Scene.forces=40", "Cell.hSize=740", "BodyContainer.body=32", "Engine::action=96", "sizeof Scene=900",
+    "NewtonIntegrator.gravity=256",
 ]  # fmt: skip
 
 

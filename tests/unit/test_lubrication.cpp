@@ -6,6 +6,7 @@
 
 #include <cppunit/extensions/HelperMacros.h>
 
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -210,9 +211,8 @@ class Lubrication : public CppUnit::TestFixture {
         const auto spheres = pack(60, 20, 3, 1.0);
         Films films({20, 20, 20}, {true, true, true}, 1e-4);
         for (const double viscosity : {0.1, 10.0, 1e5}) {
-            films.find(spheres, {}, viscosity);
+            const auto& loads = films.solve(spheres, {}, viscosity);
             CPPUNIT_ASSERT(films.size() > 20);
-            const auto& loads = films.solve(spheres, {});
             auto after = spheres;
             Vec3 sum{};
             for (std::size_t s = 0; s < after.size(); ++s) {
@@ -231,7 +231,7 @@ class Lubrication : public CppUnit::TestFixture {
             const auto spheres = pack(25, box, 7);
             Films films({box, box, box}, {true, false, true}, 1e-4);
             const Vec3 wall{};
-            films.find(spheres, {nullptr, nullptr, &wall, nullptr, nullptr, nullptr}, 1);
+            films.solve(spheres, {nullptr, nullptr, &wall, nullptr, nullptr, nullptr}, 1);
             std::size_t expected = 0;
             for (std::size_t i = 0; i < spheres.size(); ++i) {
                 const double above = spheres[i].centre[1] - spheres[i].radius;
@@ -257,8 +257,7 @@ class Lubrication : public CppUnit::TestFixture {
         for (const int threads : {1, 2, 3, 7}) {
             omp_set_num_threads(threads);
             Films films({40, 40, 40}, {true, true, true}, 1e-3);
-            films.find(spheres, {}, 0.2);
-            const auto loads = films.solve(spheres, {});
+            const auto loads = films.solve(spheres, {}, 0.2);
             if (first.empty()) first = loads;
             for (std::size_t s = 0; s < loads.size(); ++s)
                 CPPUNIT_ASSERT(loads[s].force == first[s].force && loads[s].torque == first[s].torque);
@@ -270,21 +269,19 @@ class Lubrication : public CppUnit::TestFixture {
     {
         Films films({60, 60, 60}, {false, false, false}, 1e-3);
         std::vector<FilmSphere> pair(2);
-        pair[0] = {{20, 30, 30}, 5, -1, {}};
-        pair[1] = {{30.2, 30, 30}, 5, -1, {}};
-        films.find(pair, {}, 1);
+        pair[0] = {{20, 30, 30}, 5, -1, {}, {}};
+        pair[1] = {{30.2, 30, 30}, 5, -1, {}, {}};
+        films.solve(pair, {}, 1);
         CPPUNIT_ASSERT_EQUAL(std::size_t{1}, films.size());
-        CPPUNIT_ASSERT(!films.touches(0));
         pair[0].body = pair[1].body = 3;
-        films.find(pair, {}, 1);
+        films.solve(pair, {}, 1);
         CPPUNIT_ASSERT_EQUAL(std::size_t{0}, films.size());
         pair[1].body = 4;
         pair[1].centre[0] = 29.9;  // a contact
-        films.find(pair, {}, 1);
+        films.solve(pair, {}, 1);
         CPPUNIT_ASSERT_EQUAL(std::size_t{1}, films.size());
-        CPPUNIT_ASSERT(films.touches(0) && films.touches(1));
         pair[1].centre[0] = 29;
-        films.find(pair, {}, 1);
+        films.solve(pair, {}, 1);
         CPPUNIT_ASSERT_EQUAL(std::size_t{0}, films.size());
     }
 
@@ -294,7 +291,7 @@ class Lubrication : public CppUnit::TestFixture {
         Fluid fluid(c);
         fluid.place_solids(solids);
         for (int t = 0; t < 500; ++t) fluid.step();
-        return std::abs(fluid.loads()[0].force[axis]) /
+        return std::abs(fluid.loads()[0].force[axis] + fluid.film_loads(solids, 1)[0].force[axis]) /
                (6 * kPi * c.viscosity * solids[0].radius * norm(solids[0].velocity));
     }
 
@@ -335,19 +332,32 @@ class Lubrication : public CppUnit::TestFixture {
         return s;
     }
 
-    static void coupled_step(Fluid& fluid, std::vector<Solid>& solids, const std::vector<Vec3>& push)
+    static void accelerate(std::vector<Solid>& solids, const std::vector<SolidLoad>& loads, double dt)
     {
-        fluid.place_solids(solids);
-        fluid.step();
         for (std::size_t i = 0; i < solids.size(); ++i) {
-            Solid& s = solids[i];
-            s.velocity += (1 / s.mass) * (fluid.loads()[i].force + push[i]);
-            s.angular_velocity += (1 / s.inertia) * fluid.loads()[i].torque;
-            s.position += s.velocity;
+            solids[i].velocity += (dt / solids[i].mass) * loads[i].force;
+            solids[i].angular_velocity += (dt / solids[i].inertia) * loads[i].torque;
         }
     }
 
-    /// A contact carries what is left of its weight; films must not answer for a load that leads to no motion.
+    /// One step of the fluid, several of the solids, with forces that may depend on where they are.
+    static void coupled_step(Fluid& fluid, std::vector<Solid>& solids,
+                             const std::function<std::vector<Vec3>(const std::vector<Solid>&)>& push, int sub_steps = 1)
+    {
+        fluid.place_solids(solids);
+        fluid.step();
+        const double dt = fluid.dt() / sub_steps;
+        for (int n = 0; n < sub_steps; ++n) {
+            const std::vector<Vec3> pushes = push(solids);
+            accelerate(solids, fluid.loads(), dt);
+            for (std::size_t i = 0; i < solids.size(); ++i) solids[i].velocity += (dt / solids[i].mass) * pushes[i];
+            accelerate(solids, fluid.film_loads(solids, dt), dt);
+            for (Solid& s : solids) s.position += dt * s.velocity;
+        }
+    }
+
+    static std::vector<Vec3> no_push(const std::vector<Solid>& solids) { return std::vector<Vec3>(solids.size()); }
+
     void grains_at_rest_in_contact_feel_buoyancy_alone()
     {
         FluidConfig c = test::lattice_config({26, 18, 18}, 0.8);
@@ -356,16 +366,18 @@ class Lubrication : public CppUnit::TestFixture {
         Fluid fluid(c);
         const double buoyancy = 1e-4 * 4 * kPi / 3 * 64;
         for (int t = 0; t < 30; ++t) {
-            fluid.place_solids({free_sphere(0, 4, 2.5, {8, 9, 4}), free_sphere(1, 4, 2.5, {16, 9, 4})});
+            const std::vector<Solid> pair{free_sphere(0, 4, 2.5, {8, 9, 4}), free_sphere(1, 4, 2.5, {16, 9, 4})};
+            fluid.place_solids(pair);
             fluid.step();
             for (const SolidLoad& load : fluid.loads()) {
                 LBM_ASSERT_CLOSE(0.0, load.force[0], 1e-12, buoyancy);
                 LBM_ASSERT_CLOSE(buoyancy, load.force[2], 1e-12, buoyancy);
             }
+            for (const SolidLoad& load : fluid.film_loads(pair, 1)) CPPUNIT_ASSERT_EQUAL(0.0, norm(load.force));
         }
     }
 
-    /// In an undamped contact: all that stops them is the fluid.
+    /// In an undamped contact: all that stops them is the fluid. The film lets the contact close within (its resistance) / stiffness, 600 steps at tau = 2.
     void light_spheres_pushed_together_do_not_bounce()
     {
         for (const double tau : {0.6, 1.0, 2.0}) {
@@ -374,13 +386,16 @@ class Lubrication : public CppUnit::TestFixture {
             const double push = 6 * kPi * (tau - 0.5) / 3 * 4 * 0.01;
             const double stiffness = 0.1 * pair[0].mass;  // of a contact law
             double gap = 1.2, fastest = 0;
-            for (int t = 0; t < 2000; ++t) {
-                const double force = push + std::min(0.0, gap) * stiffness;
-                coupled_step(fluid, pair, {{force, 0, 0}, {-force, 0, 0}});
+            for (int t = 0; t < 4000; ++t) {
+                coupled_step(fluid, pair, [&](const std::vector<Solid>& at) -> std::vector<Vec3> {
+                    const double open = norm(at[1].position - at[0].position) - 8;
+                    const double force = push + std::min(0.0, open) * stiffness;
+                    return {{force, 0, 0}, {-force, 0, 0}};
+                });
                 const double before = gap;
                 gap = norm(pair[1].position - pair[0].position) - 8;
                 if (t > 100 && gap > 0) CPPUNIT_ASSERT(gap <= before);
-                if (t > 1500) fastest = std::max(fastest, std::abs(gap - before));
+                if (t > 3500) fastest = std::max(fastest, std::abs(gap - before));
             }
             CPPUNIT_ASSERT(fastest < 1e-5);
             LBM_ASSERT_CLOSE(-push / stiffness, gap, 0.01, push / stiffness);
@@ -398,7 +413,7 @@ class Lubrication : public CppUnit::TestFixture {
         const double nu = c.viscosity, stokes = 6 * kPi * nu * 4, push = stokes * 0.02;
         double speed = 0, gap = 1;
         while (gap > 0.04) {
-            coupled_step(fluid, s, {{0, 0, -push}});
+            coupled_step(fluid, s, [&](const std::vector<Solid>&) -> std::vector<Vec3> { return {{0, 0, -push}}; });
             gap = s[0].position[2] - 4;
             speed = -s[0].velocity[2];
         }
@@ -418,7 +433,6 @@ class Lubrication : public CppUnit::TestFixture {
             s.angular_velocity = {0.3 * speed(random), 0.3 * speed(random), 0.3 * speed(random)};
             grains.push_back(s);
         }
-        const std::vector<Vec3> none(grains.size());
         fluid.place_solids(grains);
         const auto momentum = [&] {
             Vec3 sum = fluid.total_momentum();
@@ -435,7 +449,7 @@ class Lubrication : public CppUnit::TestFixture {
         };
         const Vec3 start = momentum();
         const double before = fastest();
-        for (int t = 0; t < 300; ++t) coupled_step(fluid, grains, none);
+        for (int t = 0; t < 300; ++t) coupled_step(fluid, grains, no_push);
         CPPUNIT_ASSERT(fastest() < 0.01 * before);
         for (int d = 0; d < 3; ++d) LBM_ASSERT_CLOSE(start[d], momentum()[d], 1e-10, grains[0].mass * 0.02 * 64);
     }

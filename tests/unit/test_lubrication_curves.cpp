@@ -47,7 +47,8 @@ class LubricationCurves : public CppUnit::TestFixture {
             if (gap < 0.0099 || gap > 1.01) continue;
             fluid.place_solids(at_gap(gap * kRadius));
             for (int t = 0; t < (points.empty() ? 2500 : 600); ++t) fluid.step();
-            points.push_back({gap * kRadius, value(fluid.loads()[0]), std::stod(row.at(column))});
+            const double load = value(fluid.loads()[0]) + value(fluid.film_loads(at_gap(gap * kRadius), 1)[0]);
+            points.push_back({gap * kRadius, load, std::stod(row.at(column))});
         }
         return points;
     }

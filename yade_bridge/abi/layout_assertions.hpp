@@ -4,6 +4,7 @@
 #include <core/Scene.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Sphere.hpp>
+#include <pkg/dem/NewtonIntegrator.hpp>
 
 #include <cstddef>
 
@@ -22,6 +23,7 @@ static_assert(sizeof(Cell) == 1104);
 static_assert(offsetof(Engine, scene) == 24 && offsetof(Engine, timingInfo) == 32);
 static_assert(offsetof(Engine, timingDeltas) == 48 && offsetof(Engine, dead) == 64);
 static_assert(offsetof(Engine, ompThreads) == 68 && offsetof(Engine, label) == 72);
+static_assert(offsetof(NewtonIntegrator, damping) == 256 && offsetof(NewtonIntegrator, gravity) == 264);
 static_assert(offsetof(State, se3) == 88 && offsetof(State, vel) == 144 && offsetof(State, mass) == 168);
 static_assert(offsetof(State, angVel) == 176 && offsetof(State, inertia) == 224);
 static_assert(offsetof(State, blockedDOFs) == 304);

@@ -3,9 +3,11 @@
 #include <core/Scene.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Sphere.hpp>
+#include <pkg/dem/NewtonIntegrator.hpp>
 
 #include <algorithm>
 #include <typeinfo>
+#include <unordered_map>
 
 namespace yadelbm {
 namespace {
@@ -41,7 +43,10 @@ lbm::Solid solid(const Body& body, double lead, const State& moving)
     const State& state = *body.state;
     lbm::Solid result;
     result.id = body.id;
-    if (body.isClumpMember()) result.body = body.clumpId;
+    if (body.isClumpMember()) {
+        result.body = body.clumpId;
+        result.lever = vec3(state.se3.position - moving.se3.position);
+    }
     if (const auto* box = dynamic_cast<const Box*>(body.shape.get())) {
         const yade::Quaternionr& q = state.se3.orientation;
         result.shape = lbm::Shape::box;
@@ -62,7 +67,78 @@ lbm::Solid solid(const Body& body, double lead, const State& moving)
     return result;
 }
 
+struct Wrench {
+    yade::Vector3r force = yade::Vector3r::Zero(), torque = yade::Vector3r::Zero();
+};
+
+Wrench wrench_on(yade::Scene& scene, Body::id_t id) { return {scene.forces.getForce(id), scene.forces.getTorque(id)}; }
+
+/// What the clumps get themselves and through their members, solids of the fluid or not.
+std::unordered_map<int, Wrench> wrenches_on_clumps(yade::Scene& scene)
+{
+    std::unordered_map<int, Wrench> wrenches;
+    const auto& bodies = scene.bodies->body;
+    for (const auto& body : bodies) {
+        if (!body || body->clumpId == Body::ID_NONE) continue;
+        const Wrench on = wrench_on(scene, body->id);
+        Wrench& sum = wrenches[body->clumpId];
+        const State& clump = moving_state(*body, bodies);
+        sum.force += on.force;
+        sum.torque += on.torque + (body->state->se3.position - clump.se3.position).cross(on.force);
+    }
+    return wrenches;
+}
+
+yade::Vector3r gravity_of(const yade::Scene& scene)
+{
+    for (const auto& engine : scene.engines)
+        if (engine && !engine->dead && engine->getClassName() == "NewtonIntegrator")
+            return static_cast<const yade::NewtonIntegrator&>(*engine).gravity;
+    return yade::Vector3r::Zero();
+}
+
+/// Changes of velocity and spin in a step.
+struct Change {
+    yade::Vector3r velocity, spin;
+};
+
+Change change_in(double dt, const State& state, const Wrench& on, const yade::Vector3r& gravity)
+{
+    Change change{yade::Vector3r::Zero(), yade::Vector3r::Zero()};
+    if (state.mass > 0) change.velocity = dt * (on.force / state.mass + gravity);
+    if (state.inertia.minCoeff() > 0) {
+        const yade::Quaternionr& q = state.se3.orientation;
+        change.spin = dt * (q * (q.conjugate() * on.torque).cwiseQuotient(state.inertia));
+    }
+    for (int d = 0; d < 3; ++d) {
+        if (state.blockedDOFs & (1u << d)) change.velocity[d] = 0;
+        if (state.blockedDOFs & (8u << d)) change.spin[d] = 0;
+    }
+    return change;
+}
+
 }  // namespace
+
+void foretell(yade::Scene& scene, double dt, std::vector<lbm::Solid>& solids)
+{
+    scene.forces.sync();
+    const auto& bodies = scene.bodies->body;
+    const yade::Vector3r gravity = gravity_of(scene);
+    const bool clumps = std::any_of(solids.begin(), solids.end(), [](const lbm::Solid& s) { return s.body >= 0; });
+    const auto on_clumps = clumps ? wrenches_on_clumps(scene) : std::unordered_map<int, Wrench>{};
+    for (lbm::Solid& solid : solids) {
+        const Body& body = *bodies[static_cast<std::size_t>(solid.id)];
+        const bool member = body.isClumpMember();
+        const Wrench on = member ? on_clumps.at(body.clumpId) : wrench_on(scene, body.id);
+        const Change change = change_in(dt, moving_state(body, bodies), on, gravity);
+        const yade::Vector3r lever(solid.lever[0], solid.lever[1], solid.lever[2]);
+        const yade::Vector3r at_centre = change.velocity + change.spin.cross(lever);
+        for (int d = 0; d < 3; ++d) {
+            solid.velocity[d] += at_centre[d];
+            solid.angular_velocity[d] += change.spin[d];
+        }
+    }
+}
 
 void read_solids(const yade::Scene& scene, const Selection& selection, double lead, std::vector<lbm::Solid>& solids)
 {

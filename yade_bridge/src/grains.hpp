@@ -26,4 +26,12 @@ struct Selection {
  */
 void read_solids(const yade::Scene& scene, const Selection& selection, double lead, std::vector<lbm::Solid>& solids);
 
+/**
+ * Brings the velocities of the solids to the end of the grain step that is about to be made, under the forces that stand in the scene now and the integrator's
+ * gravity, as if nothing else happened to them. Directions that are blocked keep theirs; members of a clump move with it.
+ * @param solids  as read_solids gave them
+ * @param dt      of the grain step [s]
+ */
+void foretell(yade::Scene& scene, double dt, std::vector<lbm::Solid>& solids);
+
 }  // namespace yadelbm

@@ -11,6 +11,7 @@
 #include <core/Scene.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Sphere.hpp>
+#include <pkg/dem/NewtonIntegrator.hpp>
 
 #include <dlfcn.h>
 #include <link.h>
@@ -178,6 +179,15 @@ void check_engine(const LayoutProbe& probe, const bp::object& yade)
     if (!equal) LayoutProbe::mismatch("TimingDeltas.data: YADE does not read back what was written");
 }
 
+void check_integrator(const LayoutProbe& probe, const bp::object& yade)
+{
+    const Vec3 gravity{1.5, -2.25, 3.125};
+    bp::object integrator = yade.attr("NewtonIntegrator")();
+    integrator.attr("gravity") = vector3(gravity);
+    const auto* native_integrator = static_cast<yade::NewtonIntegrator*>(native<yade::Engine>(integrator));
+    REQUIRE_MEMBER(probe, NewtonIntegrator, gravity, native_integrator, gravity);
+}
+
 void check_scene_members(const LayoutProbe& probe, const bp::object& yade)
 {
     const yade::Scene* current = Singleton<yade::Omega>::instance().getScene().get();
@@ -268,6 +278,7 @@ void check_layout()
     check_engine(probe, yade);
     check_virtual_functions(probe);
     check_state_body_shapes(probe, yade);
+    check_integrator(probe, yade);
     check_scene_members(probe, yade);
     check_forces(probe, yade);
 }

@@ -18,7 +18,7 @@
 namespace yadelbm {
 namespace {
 
-constexpr const char* kPartNames[] = {"states in", "map", "exchange", "collide-stream", "loads", "loads out"};
+constexpr const char* kPartNames[] = {"states in", "map", "exchange", "collide-stream", "loads", "loads out", "films"};
 
 /// Ratio of the planned to the present time step of the fluid from which on it is changed.
 constexpr double kPoorFit = 1.25;
@@ -87,12 +87,31 @@ void LbmEngine::advance()
     }
     held_.write(*scene);
     account(kLoadsOut, out.seconds(), 1);
+    if (settings_.lubrication) add_films();
+}
+
+/// Last of all, when the forces of this grain step are known.
+void LbmEngine::add_films()
+{
+    const Stopwatch time;
+    read_solids(*scene, {settings_.mask, settings_.ids}, 0, surfaces_);
+    foretell(*scene, schedule_.grain_dt(), surfaces_);
+    film_loads_ = fluid_->film_loads(surfaces_, schedule_.grain_dt());
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+        const auto id = static_cast<yade::Body::id_t>(surfaces_[i].id);
+        const lbm::Vec3 &force = film_loads_[i].force, &torque = film_loads_[i].torque;
+        scene->forces.addForce(id, yade::Vector3r(force[0], force[1], force[2]));
+        scene->forces.addTorque(id, yade::Vector3r(torque[0], torque[1], torque[2]));
+    }
+    account(kFilms, time.seconds(), 1);
 }
 
 void LbmEngine::forget()
 {
     fluid_.reset();
     held_ = HeldLoads();
+    surfaces_.clear();
+    film_loads_.clear();
     failure_.clear();
     last_iter_ = -1;
     replan_ = selection_changed_ = false;
@@ -163,7 +182,7 @@ double LbmEngine::length_of_last_grain_step(const yade::Scene& now) const
 
 void LbmEngine::step_fluid()
 {
-    check_place(*scene);
+    check_place(*scene, settings_);
     const Stopwatch in;
     read_solids(*scene, {settings_.mask, settings_.ids}, schedule_.lead(), solids_);
     check_cell(*scene, settings_, solids_);

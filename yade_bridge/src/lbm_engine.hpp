@@ -27,7 +27,7 @@ struct FluidPlan : lbm::Plan {
  * A resolved fluid as an engine of YADE.
  *
  * The fluid comes into being in the first step that YADE runs and then covers, in every step, the time that the grains are
- * about to be integrated over. Loads of a fluid step are held while the grains sub-cycle.
+ * about to be integrated over. Loads of a fluid step are held while the grains sub-cycle; films between surfaces are evaluated in every grain step.
  */
 class LbmEngine : public yade::GlobalEngine {
 public:
@@ -83,7 +83,7 @@ public:
     std::array<int, 3> fluid_cells() const { return cells(settings_); }
 
 private:
-    enum Part { kStatesIn, kMap, kExchange, kCollideStream, kLoads, kLoadsOut, kParts };
+    enum Part { kStatesIn, kMap, kExchange, kCollideStream, kLoads, kLoadsOut, kFilms, kParts };
 
     void ask_for_lubrication_law();
     void advance();
@@ -93,6 +93,7 @@ private:
     void follow_time_step();
     double length_of_last_grain_step(const yade::Scene& now) const;
     void step_fluid();
+    void add_films();
     void account(Part part, double seconds, long executions);
     const lbm::Fluid& fluid(const char* asked) const;
     double throughput() const;
@@ -108,6 +109,8 @@ private:
     Schedule schedule_;
     HeldLoads held_;
     std::vector<lbm::Solid> solids_;  // of the last fluid step
+    std::vector<lbm::Solid> surfaces_;           // of the films in the last grain step
+    std::vector<lbm::SolidLoad> film_loads_;     // on them
     bool selection_changed_ = false;  // mask or ids, while the fluid exists
     bool replan_ = false;             // O.dt has changed since the fluid's step was chosen
     const yade::Scene* started_in_ = nullptr;

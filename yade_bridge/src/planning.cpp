@@ -47,7 +47,7 @@ void check_spheres(const Settings& s, const std::vector<lbm::Solid>& solids)
 
 }  // namespace
 
-void check_place(const yade::Scene& scene)
+void check_place(const yade::Scene& scene, const Settings& s)
 {
     // O.engines assigned while a step is under way (or after one that failed) takes effect with the next step
     const auto& engines = scene._nextEngines.empty() ? scene.engines : scene._nextEngines;
@@ -60,6 +60,10 @@ void check_place(const yade::Scene& scene)
         if (name == "ForceResetter" && fluids > 0)
             throw lbm::ConfigError(
                 "LbmEngine stands before ForceResetter in O.engines, which takes its loads away: put it after");
+        if (name == "InteractionLoop" && fluids > 0 && s.lubrication)
+            throw lbm::ConfigError(
+                "LbmEngine stands before InteractionLoop in O.engines: lubrication has to know the contact forces of "
+                "the step; put it after, or set lubrication=False");
         if (!dynamic_cast<const LbmEngine*>(engine.get())) continue;
         if (++fluids > 1)
             throw lbm::ConfigError(
@@ -111,7 +115,7 @@ void check_scene(const yade::Scene& scene, const Settings& s, const std::vector<
     check(s, true);
     if (!(std::isfinite(scene.dt) && scene.dt > 0))
         throw lbm::ConfigError("O.dt = " + text(scene.dt) + ": must be finite and > 0 [s]");
-    check_place(scene);
+    check_place(scene, s);
     check_cell(scene, s, solids);
     check_selection(s, solids);
     check_spheres(s, solids);

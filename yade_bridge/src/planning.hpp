@@ -24,7 +24,7 @@ void check_scene(const yade::Scene& scene, const Settings& settings, const std::
 // Parts of `check_scene` that may break during a run.
 
 /// @throws lbm::ConfigError  unless the scene has one fluid, listed once and before the integrator
-void check_place(const yade::Scene& scene);
+void check_place(const yade::Scene& scene, const Settings& settings);
 /// @throws lbm::ConfigError  unless the cell of a periodic scene is the fluid's box where that is periodic, and longer by more than a diameter elsewhere
 void check_cell(const yade::Scene& scene, const Settings& settings, const std::vector<lbm::Solid>& solids);
 /// @throws lbm::ConfigError  if an id of the settings is not among the solids, or there are none

@@ -18,16 +18,33 @@ const lbm::Fluid& LbmEngine::fluid(const char* asked) const
     return *fluid_;
 }
 
+namespace {
+
+/// Null for a solid that is not there.
+const lbm::SolidLoad* find_load(const std::vector<lbm::Solid>& solids, const std::vector<lbm::SolidLoad>& loads, int id)
+{
+    const auto found = std::lower_bound(solids.begin(), solids.end(), id,
+                                        [](const lbm::Solid& solid, int wanted) { return solid.id < wanted; });
+    const auto index = static_cast<std::size_t>(found - solids.begin());
+    return found == solids.end() || found->id != id || index >= loads.size() ? nullptr : &loads[index];
+}
+
+}  // namespace
+
 lbm::SolidLoad LbmEngine::load_on(int id) const
 {
     const std::lock_guard lock(mutex_);
-    const auto& loads = fluid("fluidForce, fluidTorque, stresslet").loads();
-    const auto found = std::lower_bound(solids_.begin(), solids_.end(), id,
-                                        [](const lbm::Solid& solid, int wanted) { return solid.id < wanted; });
-    const auto index = static_cast<std::size_t>(found - solids_.begin());
-    if (found == solids_.end() || found->id != id || index >= loads.size())
+    const lbm::SolidLoad* lattice = find_load(solids_, fluid("fluidForce, fluidTorque, stresslet").loads(), id);
+    if (!lattice)
         throw std::invalid_argument("body " + std::to_string(id) + " was not in the fluid at its last step");
-    return loads[index];
+    lbm::SolidLoad load = *lattice;
+    if (const lbm::SolidLoad* films = find_load(surfaces_, film_loads_, id))
+        for (int a = 0; a < 3; ++a) {
+            load.force[a] += films->force[a];
+            load.torque[a] += films->torque[a];
+            for (int b = 0; b < 3; ++b) load.stresslet[a][b] += films->stresslet[a][b];
+        }
+    return load;
 }
 
 lbm::Vec3 LbmEngine::velocity_at(const lbm::Vec3& position) const

@@ -18,6 +18,7 @@ struct StepTimes {
     double exchange = 0;        ///< faces
     double collide_stream = 0;  ///< the sweep over the cells
     double loads = 0;           ///< sums over the solids
+    double films = 0;           ///< film_loads
 };
 
 /**
@@ -32,7 +33,8 @@ struct StressParts {
 /**
  * A box of viscous fluid with rigid solids in it: D3Q19 or D3Q27, two relaxation times, viscosity-exact partially saturated cells.
  *
- * A coupled step reads: `place_solids` (where they are now), `step`, `loads` (what to apply until the next step).
+ * A coupled step reads: `place_solids` (where they are now), `step`, `loads` (what to apply until the next step), and in each of the solids' own steps until then
+ * `film_loads`, which the lattice does not resolve.
  * All quantities are SI. The object is valid from construction on, prints nothing and owns the whole state of the fluid.
  */
 class Fluid {
@@ -81,8 +83,18 @@ public:
      */
     void change_faces(const std::array<FaceCondition, 6>& faces);
 
-    /// Loads of the last step, in the order of the last `place_solids`; zero before the first step.
+    /// Loads of the last step, in the order of the last `place_solids`, without films; zero before the first step.
     const std::vector<SolidLoad>& loads() const noexcept;
+
+    /**
+     * What thin films between surfaces do to the solids in one of their own steps, of any length beside the fluid's (`lubrication`; docs/physics.md, "Films"). Films are
+     * implicit: they answer to the velocities at the end of that step, take energy whatever its length, and are equal and opposite between two solids.
+     * @param solids  where they are at the start of the step, with the velocities that they would have at its end without films: after loads, weight and contacts
+     * @param dt      length of the step [s], > 0
+     * @return loads over the step, in the order of `solids`; zero without `lubrication`. Valid until the next call.
+     * @throws ConfigError  for a step or a value out of range
+     */
+    const std::vector<SolidLoad>& film_loads(const std::vector<Solid>& solids, double dt);
 
     double dt() const noexcept;    ///< [s]
     double time() const noexcept;  ///< that the steps have covered [s]
@@ -104,8 +116,8 @@ public:
     /**
      * Force of the fluid on a face, from the momentum that crosses its links between the last collision and the next one; zero for a periodic face. Of
      * the excess pressure, like the pressure field: neither hydrostatic pressure nor the drive's is in it. For a velocity or pressure face it
-     * contains the momentum that the fluid carries through it. What films add to the force on a wall (`lubrication`) is that of the last step.
-     * In each step without films, with faces F, drive a and loads on the solids: total_momentum changes by density * acceleration * V_box - sum F (before the step) -
+     * contains the momentum that the fluid carries through it. What films add to the force on a wall is that of the last `film_loads`.
+     * In each step, with faces F without films, drive a and loads on the solids: total_momentum changes by density * acceleration * V_box - sum F (before the step) -
      * loads (of the step, without buoyancy).
      */
     Vec3 boundary_force(Face face) const;  ///< [N]

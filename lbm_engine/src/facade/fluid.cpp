@@ -17,6 +17,10 @@ void Fluid::step() { implementation_->step(); }
 void Fluid::change_tau(double tau) { implementation_->change_tau(tau); }
 void Fluid::change_faces(const std::array<FaceCondition, 6>& faces) { implementation_->change_faces(faces); }
 const std::vector<SolidLoad>& Fluid::loads() const noexcept { return implementation_->loads; }
+const std::vector<SolidLoad>& Fluid::film_loads(const std::vector<Solid>& solids, double dt)
+{
+    return implementation_->film_loads(solids, dt);
+}
 double Fluid::dt() const noexcept { return implementation_->dt; }
 double Fluid::time() const noexcept { return implementation_->time(); }
 std::int64_t Fluid::steps() const noexcept { return implementation_->steps; }

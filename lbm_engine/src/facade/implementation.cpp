@@ -141,7 +141,6 @@ void Fluid::Implementation::step()
         populations);
     watch_time.lap();
     settle_loads();
-    if (config.lubrication && config.scheme == Scheme::exact) add_film_loads();
     times.loads += watch_time.lap();
 }
 

@@ -54,16 +54,11 @@ struct Fluid::Implementation {
         double share, spin_share;  ///< of the load that was passed on (LoadLedger)
     };
     std::vector<Motion> last_motions;  // of the solids in the last step; in the same order
-    /// What films remember of a solid, SI.
-    struct FilmMemory {
-        Vec3 velocity, angular_velocity, impulse, angular_impulse;  ///< at the last step, and its loads'
-        Vec3 other_force, other_torque;  ///< of weight and contacts, as its motion tells, smoothed
-    };
-    std::vector<FilmMemory> film_memories;  // in the same order
-    double film_dt = 0;                     // of that step
-    std::vector<FilmSphere> film_spheres;
     std::unordered_map<std::int64_t, int> index_of_id;  // into all of them
     std::vector<SolidLoad> loads;
+    std::vector<FilmSphere> film_spheres;
+    std::vector<SolidLoad> loads_of_films;  // in the last step of the films, SI; its order may be another
+    std::array<Vec3, 6> film_forces_on_walls{};
     double max_speed2 = 0;
     StepTimes times;
 
@@ -79,7 +74,7 @@ struct Fluid::Implementation {
     void rebuild_faces(double dynamic_pressure_scale);
     double time() const { return time_before_dt + static_cast<double>(steps - steps_before_dt) * dt; }
     void settle_loads();
-    void add_film_loads();
+    const std::vector<SolidLoad>& film_loads(const std::vector<Solid>& now, double step);
     /// B and B_w of a solid, or of the rigid body that it is part of.
     struct Coupling {
         double translation = 0, spin = 0;
@@ -89,6 +84,7 @@ struct Fluid::Implementation {
     SolidLoad load_in_si(std::size_t s, const LoadLedger::Load& load, const SolidSums& sums) const;
     void watch(const FlowWatch& flow) const;
     void watch_surfaces() const;
+    Vec3 centre_in_box(const Solid& solid) const;  ///< [cells]
     LatticeSolid in_lattice_units(const Solid& solid) const;
     Solid in_mid_step(const Solid& solid, const Motion& last) const;
 

@@ -47,7 +47,7 @@ double Fluid::boundary_flux(Face face) const
 Vec3 Fluid::boundary_force(Face face) const
 {
     const auto& fluid = *implementation_;
-    return fluid.units.force * (fluid.passages()[face].momentum + fluid.films.forces_on_walls()[face]);
+    return fluid.units.force * fluid.passages()[face].momentum + fluid.film_forces_on_walls[face];
 }
 
 double Fluid::mean_density_deviation() const
@@ -78,14 +78,15 @@ StressParts Fluid::stress() const
     StressParts stress;
     for (int a = 0; a < 3; ++a) stress.fluid[a] = (-fluid.units.pressure / fluid.cell_count()) * flux[a];
     const double volume = fluid.cell_count() * std::pow(config().dx, 3);
-    for (const SolidLoad& load : fluid.loads)
-        for (int a = 0; a < 3; ++a) {
-            const int b = (a + 1) % 3, c = (a + 2) % 3;
-            stress.solids[a] += (1 / volume) * load.stresslet[a];
-            stress.solids[a][a] += load.isotropic_moment / volume;
-            stress.solids[c][b] += 0.5 * load.torque[a] / volume;
-            stress.solids[b][c] -= 0.5 * load.torque[a] / volume;
-        }
+    for (const auto* loads : {&fluid.loads, &fluid.loads_of_films})
+        for (const SolidLoad& load : *loads)
+            for (int a = 0; a < 3; ++a) {
+                const int b = (a + 1) % 3, c = (a + 2) % 3;
+                stress.solids[a] += (1 / volume) * load.stresslet[a];
+                stress.solids[a][a] += load.isotropic_moment / volume;
+                stress.solids[c][b] += 0.5 * load.torque[a] / volume;
+                stress.solids[b][c] -= 0.5 * load.torque[a] / volume;
+            }
     return stress;
 }
 

@@ -8,6 +8,19 @@
 
 namespace lbm {
 
+/// Wrapped in periodic directions. Beyond the reach of the lattice nothing is mapped; the distance itself must stay countable.
+Vec3 Fluid::Implementation::centre_in_box(const Solid& solid) const
+{
+    const double reach = 1e6 + (solid.radius + norm(solid.half_extents)) / units.length;
+    Vec3 centre;
+    for (int d = 0; d < 3; ++d) {
+        double x = (solid.position[d] - config.lower[d]) / units.length;
+        if (config.faces[2 * d].type == FaceType::periodic) x -= config.cells[d] * std::floor(x / config.cells[d]);
+        centre[d] = std::clamp(x, -reach, config.cells[d] + reach);
+    }
+    return centre;
+}
+
 LatticeSolid Fluid::Implementation::in_lattice_units(const Solid& solid) const
 {
     LatticeSolid lattice;
@@ -20,13 +33,7 @@ LatticeSolid Fluid::Implementation::in_lattice_units(const Solid& solid) const
     lattice.body = solid.body;
     lattice.velocity = (1 / units.velocity) * solid.velocity;
     lattice.angular_velocity = units.time * solid.angular_velocity;
-    for (int d = 0; d < 3; ++d) {
-        double x = (solid.position[d] - config.lower[d]) / units.length;
-        if (config.faces[2 * d].type == FaceType::periodic) x -= config.cells[d] * std::floor(x / config.cells[d]);
-        // Beyond the reach of the lattice nothing is mapped; the distance itself must stay countable.
-        const double reach = 1e6 + geometry.radius + norm(geometry.half_extents);
-        geometry.centre[d] = std::clamp(x, -reach, config.cells[d] + reach);
-    }
+    geometry.centre = centre_in_box(solid);
     return lattice;
 }
 
@@ -88,7 +95,6 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
     if (!same_ids) {
         std::vector<LoadLedger> kept(now.size());
         std::vector<Motion> motions(now.size());
-        std::vector<FilmMemory> memories(now.size());
         if (any_new)
             std::visit([&](const auto& f) { sum_inside(f, collision, config.inertia, map, &CellState::momentum); },
                        populations);
@@ -98,10 +104,8 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
             if (previous[s] >= 0) {
                 kept[s] = ledgers[previous[s]];
                 motions[s] = last_motions[previous[s]];
-                memories[s] = film_memories[previous[s]];
             } else {
                 motions[s] = {now[s].velocity, now[s].angular_velocity, 0, 0};
-                memories[s] = {now[s].velocity, now[s].angular_velocity, {}, {}, {}, {}};
                 const SolidSums sums = map.sums(s);
                 kept[s].momentum = sums.momentum;
                 kept[s].angular_momentum = sums.angular_momentum;
@@ -109,7 +113,6 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
         }
         ledgers = std::move(kept);
         last_motions = std::move(motions);
-        film_memories = std::move(memories);
         loads.assign(now.size(), SolidLoad{});
     }
     solids = now;

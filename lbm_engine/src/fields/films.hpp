@@ -8,12 +8,13 @@
 
 namespace lbm {
 
-/// A sphere as its films see it, in lattice units.
+/// A sphere as its films see it, in lattice units of length.
 struct FilmSphere {
     Vec3 centre{};           ///< wrapped into the box in periodic directions
     double radius = 0;       ///< 0: not a sphere, and without films
-    std::int64_t body = -1;  ///< members of one rigid body (>= 0) have no film between them
-    FilmBody motion;         ///< that it would have without films at the end of the step
+    std::int64_t body = -1;  ///< members of one rigid body (>= 0) have no film between them, and share its mass and inertia
+    FilmBody motion;         ///< velocity of the centre at the end of the step if there were no films; mass of the whole body
+    Vec3 lever{};            ///< from the centre of mass of the rigid body to the centre
 };
 
 /// What films do to one sphere in a step, in lattice units.
@@ -26,7 +27,7 @@ struct FilmLoad {
  * The thin films between spheres, and between spheres and no-slip faces: found by cell lists, and solved all at once.
  *
  * The films' impulses obey `impulse = - resistance (velocities at the end of the step)`, so that they take energy at any step, and keep momentum and angular
- * momentum of pairs. Order is fixed: the same bits with any number of threads.
+ * momentum of pairs. Order is fixed: the same bits with any number of threads. A step may be of any length; its units are those in which it is one.
  */
 class Films {
 public:
@@ -37,49 +38,59 @@ public:
      */
     Films(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, double roughness);
 
-    /// Which films there are. Motions are not asked for: who touches whom may be needed to know them.
-    /// @param walls      for each face, null or its velocity
-    /// @param viscosity  in lattice units
-    void find(const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls, double viscosity);
-
-    /// Whether one of the sphere's gaps is closed down to the roughness.
-    bool touches(std::size_t sphere) const noexcept { return touches_[sphere] != 0; }
-
-    /// Loads of one step of the films that were found; spheres in the same order.
-    const std::vector<FilmLoad>& solve(const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls);
+    /**
+     * Loads of one step; spheres in the same order. Neighbours are searched for only when something moved by a quarter of a cell, or when the spheres are others.
+     * @param walls      for each face, null or its velocity
+     * @param viscosity  in lattice units
+     */
+    const std::vector<FilmLoad>& solve(const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls,
+                                       double viscosity);
 
     std::size_t size() const noexcept { return films_.size(); }  ///< films in the last step
     const std::array<Vec3, 6>& forces_on_walls() const noexcept { return wall_forces_; }
 
 private:
+    /// Where a film is, or may soon be.
     struct Place {
         std::int32_t first, second;  // second >= 0: a sphere; otherwise -1 - face
+        Vec3 shift;                  // of the second, to the image that is near
     };
-    struct Found {
-        std::vector<Place> places;
+    struct Part {  // of the spheres, and their films with those that come after them
+        std::vector<Place> near, places;
         std::vector<Film> films;
-        std::vector<char> closed;
     };
 
+    bool still_near(const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls);
+    void search(const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls);
     void sort_into_bins(const std::vector<FilmSphere>& spheres);
-    void find_of(std::int32_t first, const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls,
-                 double viscosity, Found& found) const;
-    void add(Place place, const Vec3& normal, double a1, double a2, double distance, double gap, double viscosity,
-             Found& found) const;
+    void search_around(std::int32_t first, const std::vector<FilmSphere>& spheres,
+                       const std::array<const Vec3*, 6>& walls, std::vector<Place>& near) const;
+    void make_films(const std::vector<FilmSphere>& spheres, double viscosity, Part& part) const;
+    void gather_bodies(const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls);
 
     std::array<int, 3> n_;
     std::array<bool, 3> periodic_;
     double roughness_;
 
+    // of the last search
+    struct Searched {
+        Vec3 centre;
+        double radius;
+        std::int64_t body;
+    };
+    std::vector<Searched> searched_;
+    std::array<bool, 6> searched_walls_{};
+    std::vector<Part> parts_;
+
     // bins: counting sort
     std::array<int, 3> bins_{}, reach_{};
     std::vector<std::int32_t> bin_begin_, in_bin_, bin_of_;
 
-    std::vector<Found> chunks_;
+    std::vector<Vec3> centres_;  // not wrapped since the last search
     std::vector<Place> places_;
     std::vector<Film> films_;
-    std::vector<char> touches_;
-    std::vector<FilmBody> motions_;
+    std::vector<FilmBody> bodies_;        // six walls, then the rigid bodies
+    std::vector<std::int32_t> body_of_;   // for each sphere
     std::vector<FilmLoad> loads_;
     std::array<Vec3, 6> wall_forces_{};
 };

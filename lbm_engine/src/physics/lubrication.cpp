@@ -63,23 +63,41 @@ Film make_film(const Vec3& normal, double a1, double a2, double distance, const 
     return film;
 }
 
+namespace {
+
+/// How a body answers to an impulse at the centre of one of its surfaces, and to one that turns it. Off its centre of mass the two go together: each is taken so
+/// large that their sum is no less than the true answer, whatever the directions. A film that thinks its bodies lighter than they are takes energy all the same.
+struct Lightness {
+    double push, turn;
+};
+Lightness lightness(const FilmBody& body, const Vec3& lever)
+{
+    const double lever2 = dot(lever, lever);
+    if (lever2 == 0) return {body.inverse_mass, body.inverse_inertia};
+    return {body.inverse_mass + 2 * lever2 * body.inverse_inertia, 2 * body.inverse_inertia};
+}
+
+}  // namespace
+
 double Film::relax(FilmBody& first, FilmBody& second)
 {
-    const double lightness = first.inverse_mass + second.inverse_mass;
-    const Vec3 v = second.velocity - first.velocity;
+    const Lightness light[2] = {lightness(first, lever[0]), lightness(second, lever[1])};
+    const double push = light[0].push + light[1].push;
+    const Vec3 v = second.velocity + cross(second.angular_velocity, lever[1]) - first.velocity -
+                   cross(first.angular_velocity, lever[0]);
     const double separation = dot(v, normal);
     const Vec3 v_t = v - separation * normal;
 
-    // N = -squeeze (w + lightness (N - N_before))
+    // N = -squeeze (w + push (N - N_before))
     const double squeeze = resistance.squeeze;
-    const double squeezed_now = squeeze * (lightness * squeezed - separation) / (1 + squeeze * lightness);
+    const double squeezed_now = squeeze * (push * squeezed - separation) / (1 + squeeze * push);
 
     // S = -Z (u + K (S - S_before)), the same 2 x 2 for both tangential directions
     const Vec3 u[2] = {arm[0] * cross(first.angular_velocity, normal) - part[0] * v_t,
                        part[1] * v_t - arm[1] * cross(second.angular_velocity, normal)};
-    const double k00 = arm[0] * arm[0] * first.inverse_inertia + lightness * part[0] * part[0];
-    const double k11 = arm[1] * arm[1] * second.inverse_inertia + lightness * part[1] * part[1];
-    const double k01 = -lightness * part[0] * part[1];
+    const double k00 = arm[0] * arm[0] * light[0].turn + push * part[0] * part[0];
+    const double k11 = arm[1] * arm[1] * light[1].turn + push * part[1] * part[1];
+    const double k01 = -push * part[0] * part[1];
     // What the lattice overdoes is taken back (slide < 0), as far as inertia allows without becoming unstable.
     double slide = resistance.slide;
     if (slide < 0) slide /= 1 - 4 * slide * (k00 + k11);
@@ -97,8 +115,10 @@ double Film::relax(FilmBody& first, FilmBody& second)
     const Vec3 on_second = d_squeezed * normal + part[1] * d_sheared[1] - part[0] * d_sheared[0];
     first.velocity -= first.inverse_mass * on_second;
     second.velocity += second.inverse_mass * on_second;
-    first.angular_velocity += (first.inverse_inertia * arm[0]) * cross(normal, d_sheared[0]);
-    second.angular_velocity -= (second.inverse_inertia * arm[1]) * cross(normal, d_sheared[1]);
+    first.angular_velocity +=
+        first.inverse_inertia * (arm[0] * cross(normal, d_sheared[0]) - cross(lever[0], on_second));
+    second.angular_velocity +=
+        second.inverse_inertia * (cross(lever[1], on_second) - arm[1] * cross(normal, d_sheared[1]));
     squeezed = squeezed_now;
     sheared[0] = sheared_now[0];
     sheared[1] = sheared_now[1];

@@ -43,7 +43,7 @@ struct SeenGaps {
  */
 [[nodiscard]] FilmResistance film_resistance(double viscosity, double a1, double a2, double gap, const SeenGaps& seen);
 
-/// One of the two bodies of a film; infinite mass (inverse 0) where its motion is prescribed.
+/// One of the two bodies of a film, velocity of its centre of mass; infinite mass (inverse 0) where its motion is prescribed.
 struct FilmBody {
     Vec3 velocity{}, angular_velocity{};
     double inverse_mass = 0, inverse_inertia = 0;
@@ -63,19 +63,21 @@ struct Film {
     Vec3 normal{};  ///< from the first to the second
     double arm[2] = {0, 0};
     double part[2] = {0, 0};
+    Vec3 lever[2] = {};  ///< from the centres of mass of the bodies to the centres of the surfaces
     FilmResistance resistance;
 
     double squeezed = 0;   ///< impulse on the second along the normal
     Vec3 sheared[2] = {};  ///< impulses of the tangential tractions on the two surfaces
 
     /**
-     * Lets the film act on its bodies as if it were alone: backward Euler, so that it takes energy whatever the step. Repeated for all films it converges to the
-     * solution for all of them at once (Gauss-Seidel).
+     * Lets the film act on its bodies as if it were alone: backward Euler, so that it takes energy whatever the step, and never turns a motion round. Repeated for
+     * all films it converges to the solution for all of them at once (Gauss-Seidel).
      * @return square of the change of the impulses
      */
     double relax(FilmBody& first, FilmBody& second);
 
     Vec3 force_on_second() const { return squeezed * normal + part[1] * sheared[1] - part[0] * sheared[0]; }
+    /// About the centre of the surface.
     Vec3 torque_on(int which) const { return (which == 0 ? arm[0] : -arm[1]) * cross(normal, sheared[which]); }
     /// Symmetric, traceless first moment of the tractions on one body.
     Mat3 stresslet_of(int which) const;

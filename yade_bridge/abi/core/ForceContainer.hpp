@@ -13,6 +13,9 @@ public:
     ~ForceContainer();
     void addForce(Body::id_t id, const Vector3r& f);
     void addTorque(Body::id_t id, const Vector3r& t);
+    void sync();
+    const Vector3r& getForce(Body::id_t id);
+    const Vector3r& getTorque(Body::id_t id);
     const Vector3r getForceSingle(Body::id_t id);
     const Vector3r getTorqueSingle(Body::id_t id);
 };
