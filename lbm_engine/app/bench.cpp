@@ -124,6 +124,7 @@ nlohmann::json measure(const Run& run, double seconds)
             fluid.place_solids(solids);
         }
         fluid.step();
+        if (run.moving) fluid.film_loads(solids, fluid.dt());
         ++steps;
     };
     for (int i = 0; i < 4; ++i) step();

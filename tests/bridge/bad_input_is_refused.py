@@ -158,6 +158,11 @@ def a_place_where_loads_are_lost_is_refused():
     refused_by_plan_and_run("LbmEngine stands after NewtonIntegrator", fluid)
     O.engines = [fluid] + engines(box((12, 12, 12)))[:3] + [NewtonIntegrator()]
     refused_by_plan_and_run("LbmEngine stands before ForceResetter", fluid)
+    others = engines(fluid)
+    O.engines = others[:2] + [fluid, others[2], others[4]]
+    refused_by_plan_and_run("LbmEngine stands before InteractionLoop", fluid)
+    fluid.lubrication = False
+    fluid.plan()
 
 
 def a_free_sphere_without_mass_is_refused():

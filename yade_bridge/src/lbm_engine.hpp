@@ -108,11 +108,11 @@ private:
     std::unique_ptr<lbm::Fluid> fluid_;  // none before the first step
     Schedule schedule_;
     HeldLoads held_;
-    std::vector<lbm::Solid> solids_;  // of the last fluid step
-    std::vector<lbm::Solid> surfaces_;           // of the films in the last grain step
-    std::vector<lbm::SolidLoad> film_loads_;     // on them
-    bool selection_changed_ = false;  // mask or ids, while the fluid exists
-    bool replan_ = false;             // O.dt has changed since the fluid's step was chosen
+    std::vector<lbm::Solid> solids_;          // of the last fluid step
+    std::vector<lbm::Solid> surfaces_;        // of the films in the last grain step
+    std::vector<lbm::SolidLoad> film_loads_;  // on them
+    bool selection_changed_ = false;          // mask or ids, while the fluid exists
+    bool replan_ = false;                     // O.dt has changed since the fluid's step was chosen
     const yade::Scene* started_in_ = nullptr;
     long last_iter_ = -1;  // of the scene, at the last action
     double last_time_ = 0;

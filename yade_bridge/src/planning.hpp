@@ -16,14 +16,14 @@ namespace yadelbm {
 
 /**
  * Checks that a fluid with these settings fits the scene as it is now.
- * @throws lbm::ConfigError  for a second engine or one behind the integrator, no sphere or box, a sphere that the lattice cannot hold, ids that are
+ * @throws lbm::ConfigError  for a second engine or one in the wrong place, no sphere or box, a sphere that the lattice cannot hold, ids that are
  *         neither, a periodic cell that is not the fluid's box, a time step that is not finite and positive
  */
 void check_scene(const yade::Scene& scene, const Settings& settings, const std::vector<lbm::Solid>& solids);
 
 // Parts of `check_scene` that may break during a run.
 
-/// @throws lbm::ConfigError  unless the scene has one fluid, listed once and before the integrator
+/// @throws lbm::ConfigError  unless the scene has one fluid, listed once, before the integrator and, with lubrication, behind the contacts
 void check_place(const yade::Scene& scene, const Settings& settings);
 /// @throws lbm::ConfigError  unless the cell of a periodic scene is the fluid's box where that is periodic, and longer by more than a diameter elsewhere
 void check_cell(const yade::Scene& scene, const Settings& settings, const std::vector<lbm::Solid>& solids);

@@ -35,8 +35,7 @@ lbm::SolidLoad LbmEngine::load_on(int id) const
 {
     const std::lock_guard lock(mutex_);
     const lbm::SolidLoad* lattice = find_load(solids_, fluid("fluidForce, fluidTorque, stresslet").loads(), id);
-    if (!lattice)
-        throw std::invalid_argument("body " + std::to_string(id) + " was not in the fluid at its last step");
+    if (!lattice) throw std::invalid_argument("body " + std::to_string(id) + " was not in the fluid at its last step");
     lbm::SolidLoad load = *lattice;
     if (const lbm::SolidLoad* films = find_load(surfaces_, film_loads_, id))
         for (int a = 0; a < 3; ++a) {

@@ -35,7 +35,8 @@ struct Solid {
     Vec3 position{};                       ///< of the centre [m]; need not be wrapped in periodic directions
     Vec3 velocity{};                       ///< of the centre [m/s]
     Vec3 angular_velocity{};               ///< [rad/s]
-    Vec3 lever{};  ///< from the centre of mass of the rigid body that it is a part of to its own centre; for films alone [m]
+    Vec3
+        lever{};  ///< from the centre of mass of the rigid body that it is a part of to its own centre; for films alone [m]
     double mass = std::numeric_limits<double>::infinity();  ///< of the whole rigid body [kg], > 0
     double inertia =
         std::numeric_limits<double>::infinity();  ///< smallest principal moment, of the whole rigid body [kg m2], > 0

@@ -53,7 +53,7 @@ struct Fluid::Implementation {
         Vec3 velocity, angular_velocity;
         double share, spin_share;  ///< of the load that was passed on (LoadLedger)
     };
-    std::vector<Motion> last_motions;  // of the solids in the last step; in the same order
+    std::vector<Motion> last_motions;                   // of the solids in the last step; in the same order
     std::unordered_map<std::int64_t, int> index_of_id;  // into all of them
     std::vector<SolidLoad> loads;
     std::vector<FilmSphere> film_spheres;

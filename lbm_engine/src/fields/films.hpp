@@ -10,11 +10,12 @@ namespace lbm {
 
 /// A sphere as its films see it, in lattice units of length.
 struct FilmSphere {
-    Vec3 centre{};           ///< wrapped into the box in periodic directions
-    double radius = 0;       ///< 0: not a sphere, and without films
-    std::int64_t body = -1;  ///< members of one rigid body (>= 0) have no film between them, and share its mass and inertia
-    FilmBody motion;         ///< velocity of the centre at the end of the step if there were no films; mass of the whole body
-    Vec3 lever{};            ///< from the centre of mass of the rigid body to the centre
+    Vec3 centre{};      ///< wrapped into the box in periodic directions
+    double radius = 0;  ///< 0: not a sphere, and without films
+    std::int64_t body =
+        -1;           ///< members of one rigid body (>= 0) have no film between them, and share its mass and inertia
+    FilmBody motion;  ///< velocity of the centre at the end of the step if there were no films; mass of the whole body
+    Vec3 lever{};     ///< from the centre of mass of the rigid body to the centre
 };
 
 /// What films do to one sphere in a step, in lattice units.
@@ -89,8 +90,8 @@ private:
     std::vector<Vec3> centres_;  // not wrapped since the last search
     std::vector<Place> places_;
     std::vector<Film> films_;
-    std::vector<FilmBody> bodies_;        // six walls, then the rigid bodies
-    std::vector<std::int32_t> body_of_;   // for each sphere
+    std::vector<FilmBody> bodies_;       // six walls, then the rigid bodies
+    std::vector<std::int32_t> body_of_;  // for each sphere
     std::vector<FilmLoad> loads_;
     std::array<Vec3, 6> wall_forces_{};
 };
