@@ -42,7 +42,7 @@ public:
     /**
      * Loads of one step; spheres in the same order. Neighbours are searched for only when something moved by a quarter of a cell, or when the spheres are others.
      * @param walls      for each face, null or its velocity
-     * @param viscosity  in lattice units
+     * @param viscosity  in units of cell and step
      */
     const std::vector<FilmLoad>& solve(const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls,
                                        double viscosity);
