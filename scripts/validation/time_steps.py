@@ -109,7 +109,7 @@ TIME_STEPS = Case(
     name="time_steps",
     title="The same cases with other time steps",
     solved="""
-Through YADE, with tau from 0.52 to 2 and 1 to 50 grain steps per fluid step: a sphere settles in a closed box from rest; flow through a fixed packed bed; grains come to rest on the floor in undamped contacts (films off; tau up to 1.5,
+Through YADE, with tau from 0.52 to 2 and 1 to 50 grain steps per fluid step: a sphere settles in a closed box from rest; flow through a fixed packed bed; grains come to rest on the floor in undamped contacts (tau up to 1.5,
 since beyond it their weight would compress the lattice's fluid by more than the plan allows).""",
     reference="None is needed: the answer must not change.",
     runs=lambda quick: list(runs(quick)),

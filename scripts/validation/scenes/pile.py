@@ -24,8 +24,7 @@ O.bodies.append(utils.sphere((8 * dx, 8 * dx, 10 * dx), d / 2, material=material
 for axis in range(3):
     O.bodies.append(utils.wall(0, axis=axis, sense=1, material=material))
     O.bodies.append(utils.wall(box[axis] * dx, axis=axis, sense=-1, material=material))
-fluid = LbmEngine(upper=[c * dx for c in box], dx=dx, density=1000, viscosity=1000 * nu, tau=tau, gravity=(0, 0, -gravity),
-                  lubrication=False)  # with films the grains creep together for much longer
+fluid = LbmEngine(upper=[c * dx for c in box], dx=dx, density=1000, viscosity=1000 * nu, tau=tau, gravity=(0, 0, -gravity))
 O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]),
              InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
                              [Law2_ScGeom_FrictPhys_CundallStrack()]),
