@@ -36,13 +36,4 @@ template <int W, class T>
     else *reinterpret_cast<InMemory<W, T>*>(p) = __builtin_convertvector(v, InMemory<W, T>);
 }
 
-/// Sum over the lanes, by halves: one order for all instruction sets.
-[[gnu::always_inline]] inline double sum_lanes(const Pack<8>& v)
-{
-    const Pack<4> four = __builtin_shufflevector(v, v, 0, 1, 2, 3) + __builtin_shufflevector(v, v, 4, 5, 6, 7);
-    const Pack<2> two = __builtin_shufflevector(four, four, 0, 1) + __builtin_shufflevector(four, four, 2, 3);
-    return two[0] + two[1];
-}
-[[gnu::always_inline]] inline double sum_lanes(double v) { return v; }
-
 }  // namespace lbm

@@ -2,6 +2,7 @@
 
 #include "physics/collision.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,15 +17,14 @@ constexpr std::size_t padded_to_blocks(std::size_t n) { return (n + kBlock - 1) 
 
 /**
  * One row of cells as the solids see it: sums of what they say to the cells, and what the cells answer, per fraction: a solid takes eps_i times that.
- * One per thread; outside covered blocks the input is zero and the answers are finite and meaningless. A block more than the row
- * holds lets spans be worked on in whole blocks wherever they begin.
+ * One per thread. Only covered blocks mean anything; outside the solids their input is zero.
  */
 struct RowSaturation {
     enum Column {
         kFraction,                ///< sum of the solids' fractions; above 1 where they overlap
         kStrength,                ///< sum k eps
         kUs,                      ///< sum eps u_s
-        kBounce = kUs + 3,        ///< 1 in cells of solids that turn populations round
+        kBounce = kUs + 3,        ///< 1 in cells of solids that turn populations round; in blocks that are kWall
         kForce,                   ///< F_s / sum eps
         kMomentum = kForce + 3,   ///< eps j_post / sum eps
         kWeight = kMomentum + 3,  ///< (1 - eps) kk rho / sum eps
@@ -35,13 +35,14 @@ struct RowSaturation {
     enum Cover : std::uint8_t { kFluid, kSolids, kWall };
 
     explicit RowSaturation(int nx)
-        : stride(padded_to_blocks(nx) + kBlock)
+        : stride(padded_to_blocks(nx))
         , values(kColumns * stride, 0.0)
-        , covered(stride / kBlock, 0)
+        , covered(stride / kBlock, kFluid)
     {
     }
     double* column(int c) noexcept { return values.data() + static_cast<std::size_t>(c) * stride; }
     const double* column(int c) const noexcept { return values.data() + static_cast<std::size_t>(c) * stride; }
+    void clear() noexcept { std::fill(covered.begin(), covered.end(), kFluid); }
 
     std::size_t stride;
     std::vector<double> values;

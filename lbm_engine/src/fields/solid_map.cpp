@@ -9,11 +9,50 @@
 #include <unordered_map>
 
 namespace lbm {
+namespace {
+
+/// Goes along an axis from cell i0 on, not wrapped.
+struct Walk {
+    int n, size;  ///< cells of the lattice, and in a unit
+    int cell;     ///< wrapped
+    int image;    ///< cells not wrapped are cell + image n
+    int unit = 0;  ///< of those passed, from 0 on
+
+    Walk(int i0, int n_, int size_) : n(n_), size(size_), cell(wrap(i0, n_)), image((i0 - cell) / n_) {}
+    void next()
+    {
+        const int before = cell / size;
+        if (++cell == n) {
+            cell = 0;
+            ++image;
+        }
+        unit += cell / size != before;
+    }
+};
+
+/// Units in which `count` cells from i0 on lie.
+int units_along(int i0, int count, int n, int size)
+{
+    Walk walk(i0, n, size);
+    for (int i = 1; i < count; ++i) walk.next();
+    return walk.unit + 1;
+}
+
+}  // namespace
+
+RowUnits::RowUnits(int ny_, int nz_) : ny(ny_), nz(nz_)
+{
+    constexpr int kUnits = 64;  // at most, about
+    planes = (nz + kUnits - 1) / kUnits;
+    const int parts = std::max(1, kUnits / nz);
+    rows = (ny + parts - 1) / parts;
+}
 
 SolidMap::SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const Weighting& weighting)
     : n_(cells)
     , periodic_(periodic)
     , weighting_(weighting)
+    , units_(cells[1], cells[2])
     , row_begin_(static_cast<std::size_t>(cells[1]) * cells[2] + 1, 0)
 {
 }
@@ -64,8 +103,8 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
                         before.angular_velocity != solids[s].angular_velocity;
     }
 
-    bool rows_changed = !same_set;
-#pragma omp parallel reduction(|| : rows_changed) if (count > 8)
+    bool spans_changed = !same_set;
+#pragma omp parallel reduction(|| : spans_changed) if (count > 8)
     {
         SolidFraction fraction(n_, periodic_);
         std::vector<SolidGeometry> others;
@@ -81,13 +120,13 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
                     changed = changed || moved[o];
                 }
             if (!changed) continue;
-            const std::array<int, 4> rows{solid.y0, solid.ny, solid.z0, solid.nz};
             map(solid, fraction, others);
-            rows_changed = rows_changed || rows != std::array<int, 4>{solid.y0, solid.ny, solid.z0, solid.nz};
+            spans_changed = true;
         }
     }
-    if (rows_changed) list_rows();
+    if (spans_changed) list_rows();
     if (boxes_changed) mark_walls();
+    tell_rows();
 }
 
 /**
@@ -161,7 +200,7 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
     solid.z0 = first[2];
     solid.nz = count[2];
     solid.spans.clear();
-    solid.fractions.clear();
+    solid.fractions.assign(kBlock, 0.0);
     double inside = 0, outside = 0;
     bool whole_cells = true;
     for (int k = 0; k < count[2]; ++k)
@@ -187,60 +226,102 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
             solid.spans.push_back(
                 {first[0] + in_begin, in_end - in_begin, static_cast<std::uint32_t>(solid.fractions.size())});
             solid.fractions.insert(solid.fractions.end(), row + in_begin, row + in_end);
-            solid.fractions.resize(padded_to_blocks(solid.fractions.size()), 0.0);
         }
+    solid.fractions.insert(solid.fractions.end(), kBlock, 0.0);
     const double R = geometry.radius;
     const bool lone_sphere = geometry.shape == Shape::sphere && others.empty();
     solid.volume = lone_sphere ? 4 * std::numbers::pi / 3 * R * R * R - outside : inside;
     solid.whole_cells = whole_cells;
-    solid.sums.resize(solid.spans.size());
+    solid.units_y = units_along(solid.y0, solid.ny, n_[1], units_.rows);
+    solid.units_z = units_along(solid.z0, solid.nz, n_[2], units_.planes);
 }
 
-/// Sorts the spans by row; within a row they stand in the order of the solids. Slabs of planes are sorted side by side.
-void SolidMap::list_rows()
+/// Calls body(row, piece, wherein x0 and n are still those of the span) for all spans with cells in planes from first to end.
+template <class Body>
+void SolidMap::for_spans(int first_plane, int end_plane, Body body) const
 {
-    constexpr int kSlabs = 16;
-    const auto for_spans = [&](auto&& body) {
-#pragma omp parallel for schedule(dynamic)
-        for (int slab = 0; slab < kSlabs; ++slab) {
-            const int first = n_[2] * slab / kSlabs, last = n_[2] * (slab + 1) / kSlabs;
-            for (std::size_t s = 0; s < solids_.size(); ++s) {
-                const MappedSolid& solid = solids_[s];
-                for (int k = 0; k < solid.nz; ++k) {
-                    const int plane = wrap(solid.z0 + k, n_[2]);
-                    if (plane < first || plane >= last || !is_inside(solid.z0 + k, 2)) continue;
-                    for (int j = 0; j < solid.ny; ++j)
-                        if (is_inside(solid.y0 + j, 1))
-                            body(static_cast<std::size_t>(plane) * n_[1] + wrap(solid.y0 + j, n_[1]), s,
-                                 k * solid.ny + j);
-                }
+    for (std::size_t s = 0; s < solids_.size(); ++s) {
+        const MappedSolid& solid = solids_[s];
+        Walk z(solid.z0, n_[2], units_.planes);
+        for (int k = 0; k < solid.nz; ++k, z.next()) {
+            if (z.cell < first_plane || z.cell >= end_plane) continue;
+            Walk y(solid.y0, n_[1], units_.rows);
+            const Span* const spans = solid.spans.data() + static_cast<std::size_t>(k) * solid.ny;
+            for (int j = 0; j < solid.ny; ++j, y.next()) {
+                if (spans[j].n == 0) continue;
+                const std::uint32_t sums = sums_begin_[s] + z.unit * solid.units_y + y.unit;
+                body(static_cast<std::size_t>(z.cell) * n_[1] + y.cell,
+                     Piece{static_cast<std::int32_t>(s), static_cast<std::int32_t>(sums), spans[j].fractions,
+                           spans[j].x0, spans[j].n,
+                           {0, static_cast<std::int8_t>(y.image), static_cast<std::int8_t>(z.image)}});
             }
         }
+    }
+}
+
+/// Sorts the spans by row, cut at periodic faces; within a row they stand in the order of the solids. Slabs of planes are sorted side by side.
+void SolidMap::list_rows()
+{
+    sums_begin_.resize(solids_.size() + 1);
+    sums_begin_[0] = 0;
+    for (std::size_t s = 0; s < solids_.size(); ++s)
+        sums_begin_[s + 1] = sums_begin_[s] + solids_[s].units_y * solids_[s].units_z;
+    sums_.resize(sums_begin_.back());
+
+    constexpr int kSlabs = 16;
+    const auto for_slabs = [&](auto&& body) {
+#pragma omp parallel for schedule(dynamic)
+        for (int slab = 0; slab < kSlabs; ++slab)
+            for_spans(n_[2] * slab / kSlabs, n_[2] * (slab + 1) / kSlabs, body);
     };
     std::fill(row_begin_.begin(), row_begin_.end(), 0);
-    for_spans([&](std::size_t row, std::size_t, int) { ++row_begin_[row + 1]; });
+    for_slabs([&](std::size_t row, const Piece& span) {
+        row_begin_[row + 1] += 1 + (wrap(span.x0, n_[0]) + span.n - 1) / n_[0];
+    });
     for (std::size_t r = 1; r < row_begin_.size(); ++r) row_begin_[r] += row_begin_[r - 1];
-    entries_.resize(row_begin_.back());
+    pieces_.resize(row_begin_.back());
     row_next_.assign(row_begin_.begin(), row_begin_.end() - 1);
-    for_spans([&](std::size_t row, std::size_t s, int span) {
-        entries_[row_next_[row]++] = {static_cast<std::int32_t>(s), span};
+    for_slabs([&](std::size_t row, Piece piece) {
+        int rest = piece.n;
+        Walk x(piece.x0, n_[0], 1);
+        piece.x0 = x.cell;
+        piece.image[0] = static_cast<std::int8_t>(x.image);
+        while (rest > 0) {
+            piece.n = std::min(rest, n_[0] - piece.x0);
+            pieces_[row_next_[row]++] = piece;
+            rest -= piece.n;
+            piece.fractions += piece.n;
+            piece.x0 = 0;
+            ++piece.image[0];
+        }
     });
 }
 
-void SolidMap::scale_velocities(double s) noexcept
+void SolidMap::scale_velocities(double s)
 {
     for (MappedSolid& solid : solids_) {
         solid.solid.velocity = s * solid.solid.velocity;
         solid.solid.angular_velocity = s * solid.solid.angular_velocity;
     }
+    tell_rows();
+}
+
+void SolidMap::tell_rows()
+{
+    row_solids_.resize(solids_.size());
+    for (std::size_t s = 0; s < solids_.size(); ++s) {
+        const MappedSolid& m = solids_[s];
+        row_solids_[s] = {m.solid.geometry.centre, m.solid.velocity,   m.solid.angular_velocity, m.k,
+                          m.fractions.data(),      m.bounce.empty() ? nullptr : m.bounce.data()};
+    }
 }
 
 std::size_t SolidMap::memory_bytes() const
 {
-    std::size_t bytes = row_begin_.capacity() * sizeof(row_begin_[0]) + entries_.capacity() * sizeof(RowEntry);
-    for (const MappedSolid& s : solids_)
-        bytes += sizeof(s) + s.spans.capacity() * sizeof(Span) + s.fractions.capacity() * sizeof(double) +
-                 s.bounce.capacity() + s.sums.capacity() * sizeof(SpanSums);
+    const auto bytes_of = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
+    std::size_t bytes = bytes_of(row_begin_) + bytes_of(row_next_) + bytes_of(pieces_) + bytes_of(solids_) +
+                        bytes_of(row_solids_) + bytes_of(sums_begin_) + bytes_of(sums_);
+    for (const MappedSolid& s : solids_) bytes += bytes_of(s.spans) + bytes_of(s.fractions) + bytes_of(s.bounce);
     return bytes;
 }
 

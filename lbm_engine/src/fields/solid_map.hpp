@@ -1,10 +1,12 @@
 #pragma once
 
 #include "fields/row_saturation.hpp"
+#include "fields/solid_row.hpp"
 #include "lattice/vec3.hpp"
 #include "physics/rates.hpp"
 #include "physics/solid_fraction.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -34,11 +36,37 @@ struct SolidSums {
 };
 
 /**
+ * The rows of the lattice in units of neighbouring ones: planes, or parts of planes where there are few. A unit is swept by one thread, in order; units
+ * depend on the lattice alone, so that sums within them, added up unit by unit, do not depend on the number of threads.
+ */
+struct RowUnits {
+    int ny, nz;
+    int rows, planes;  ///< of a unit; the last ones may have fewer
+
+    RowUnits(int ny_, int nz_);
+    int along_y() const noexcept { return (ny + rows - 1) / rows; }
+    int along_z() const noexcept { return (nz + planes - 1) / planes; }
+};
+
+/// Calls body(row, y, z) for all rows; to be called by all threads of a team, which share the units.
+template <class Body>
+void for_rows(const RowUnits& units, Body body)
+{
+    const int along_y = units.along_y(), count = along_y * units.along_z();
+#pragma omp for schedule(static)
+    for (int unit = 0; unit < count; ++unit) {
+        const int y0 = unit % along_y * units.rows, z0 = unit / along_y * units.planes;
+        for (int z = z0; z < std::min(z0 + units.planes, units.nz); ++z)
+            for (int y = y0; y < std::min(y0 + units.rows, units.ny); ++y)
+                body(static_cast<std::size_t>(z) * units.ny + y, y, z);
+    }
+}
+
+/**
  * Which cells the solids cover, and how much: for every solid the spans of its rows with exact fractions, and for every
- * row of the lattice the spans that lie in it.
+ * row of the lattice the pieces of spans that lie in it.
  *
- * Only solids that moved are evaluated again, and those of their body that overlap may. Sums are kept per span and added up span by span, so that the result does not depend on
- * which thread swept which row.
+ * Only solids that moved are evaluated again, and those of their body that overlap may. Sums are kept per solid and unit of rows (RowUnits).
  */
 class SolidMap {
 public:
@@ -49,6 +77,7 @@ public:
     const LatticeSolid& solid(std::size_t s) const noexcept { return solids_[s].solid; }
     /// Inside the lattice; what a solid shares with earlier ones of its body is theirs.
     double volume(std::size_t s) const noexcept { return solids_[s].volume; }
+    const RowUnits& units() const noexcept { return units_; }
 
     /**
      * The solids that are there now.
@@ -57,42 +86,37 @@ public:
     void update(const std::vector<LatticeSolid>& solids, const std::vector<int>& previous);
 
     /// The time step becomes s times what it was: so do velocities in lattice units.
-    void scale_velocities(double s) noexcept;
+    void scale_velocities(double s);
 
     bool covers(std::size_t row) const noexcept { return !solids_.empty() && row_begin_[row] != row_begin_[row + 1]; }
 
-    /// Asks memory for what `row` and the one after it will need: spans lie scattered, solid by solid.
+    /// Asks memory for the fractions of a row, which lie scattered, solid by solid.
     void prefetch(std::size_t row) const noexcept;
     /// Writes what the solids say to the cells of a row, and marks the covered blocks.
     void saturate(std::size_t row, RowSaturation& cells) const;
-    /// Reads the cells' answers into the spans' sums, and clears the row for the next one.
+    /// Adds the cells' answers to the solids' sums, and clears the row for the next one.
     void collect(std::size_t row, RowSaturation& cells);
-    void clear(RowSaturation& cells) const;
 
+    void clear_sums();
     SolidSums sums(std::size_t solid) const;
 
     std::size_t memory_bytes() const;
 
 private:
-    using SpanSums = std::array<double, 13>;  // F, rx F, P, rx P (y and z), b, b rx^2
     struct Span {
         std::int32_t x0, n;       // x0 not wrapped
-        std::uint32_t fractions;  // offset; padded with zeros to whole blocks
+        std::uint32_t fractions;  // offset
     };
     struct MappedSolid {
         LatticeSolid solid;
         double k = 0, volume = 0;
         int y0 = 0, ny = 0, z0 = 0, nz = 0;  // rows, not wrapped
+        int units_y = 0, units_z = 0;        // of rows, that they lie in
         std::vector<Span> spans;             // ny * nz
-        std::vector<double> fractions;
+        std::vector<double> fractions;       // a block of padding before and after those of the spans
         bool whole_cells = false;
         std::vector<std::uint8_t> bounce;  // of a box along the lattice: whether a cell turns populations round
-        std::vector<SpanSums> sums;
     };
-    struct RowEntry {
-        std::int32_t solid, span;
-    };
-
     std::vector<std::vector<int>> earlier_of_body(const std::vector<LatticeSolid>& solids) const;
     double k(const SolidGeometry& geometry) const;
     void mark_walls();
@@ -100,16 +124,24 @@ private:
                       const std::array<int, 3>& cell) const;
     void map(MappedSolid& solid, SolidFraction& fraction, const std::vector<SolidGeometry>& others) const;
     void list_rows();
+    void tell_rows();
+    template <class Body>
+    void for_spans(int first_plane, int end_plane, Body body) const;
+    PiecesOfRow pieces(std::size_t row) const noexcept;
     /// Whether a row or plane, not wrapped, is part of the box.
     bool is_inside(int i, int axis) const noexcept { return periodic_[axis] || (i >= 0 && i < n_[axis]); }
 
     std::array<int, 3> n_;
     std::array<bool, 3> periodic_;
     Weighting weighting_;
+    RowUnits units_;
     std::vector<MappedSolid> solids_;
+    std::vector<RowSolid> row_solids_;
     std::vector<std::uint32_t> row_begin_;  // (ny * nz + 1)
     std::vector<std::uint32_t> row_next_;   // while sorting
-    std::vector<RowEntry> entries_;
+    std::vector<Piece> pieces_;
+    std::vector<std::uint32_t> sums_begin_;  // for each solid
+    std::vector<PieceSums> sums_;
 };
 
 }  // namespace lbm

@@ -11,15 +11,14 @@ FlowWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bo
     static const SweepRows<L, T> variants = sweep_rows<L, T>();
     const SweepRow<L, T> sweep_row = inertia ? variants.inertia : variants.stokes;
     const Layout<L>& layout = populations.layout;
-    const int nx = layout.n[0], ny = layout.n[1], nz = layout.n[2];
+    const int nx = layout.n[0];
     FlowWatch all;
+    solids.clear_sums();
 #pragma omp parallel
     {
         RowSaturation cells(nx);
         FlowWatch watch;
-#pragma omp for schedule(static)
-        for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(ny) * nz; ++row) {
-            const int y = static_cast<int>(row % ny), z = static_cast<int>(row / ny);
+        for_rows(solids.units(), [&](std::size_t row, int y, int z) {
             Slot slot[L::Q];
             for (int i = 0; i < L::Q; ++i) slot[i] = layout.incoming(i, 0, y, z, populations.odd);
             if (solids.covers(row)) {
@@ -31,7 +30,7 @@ FlowWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bo
                 sweep_row(populations.data(), slot, nx, layout.row, p, nullptr, watch);
             }
             after_row(y, z);
-        }
+        });
 #pragma omp critical
         all.see(watch);
     }
@@ -43,13 +42,12 @@ template <class L, class T>
 void sum_inside(const Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
                 Vec3 CellState::*momentum)
 {
-    const int nx = populations.layout.n[0], ny = populations.layout.n[1], nz = populations.layout.n[2];
+    solids.clear_sums();
 #pragma omp parallel
     {
-        RowSaturation cells(nx);
-#pragma omp for schedule(static)
-        for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(ny) * nz; ++row) {
-            if (!solids.covers(row)) continue;
+        RowSaturation cells(populations.layout.n[0]);
+        for_rows(solids.units(), [&](std::size_t row, int y, int z) {
+            if (!solids.covers(row)) return;
             solids.saturate(row, cells);
             std::fill(cells.column(RowSaturation::kForce), cells.column(RowSaturation::kColumns), 0.0);
             const auto answer = [&](const CellState& cell) {
@@ -58,9 +56,9 @@ void sum_inside(const Populations<L, T>& populations, const CollisionParameters&
                 for (int d = 0; d < 3; ++d)
                     cells.column(RowSaturation::kMomentum + d)[cell.x] = filled * (cell.*momentum)[d];
             };
-            read_row(populations, p, inertia, static_cast<int>(row % ny), static_cast<int>(row / ny), cells, answer);
+            read_row(populations, p, inertia, y, z, cells, answer);
             solids.collect(row, cells);
-        }
+        });
     }
 }
 

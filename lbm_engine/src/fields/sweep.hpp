@@ -46,13 +46,14 @@ void read_row(const Populations<L, T>& populations, const CollisionParameters& p
         const Moments<double> after = moments<L>(f);
         populations.incoming(x, y, z, f);
         const Moments<double> before = moments<L>(f);
-        const auto in = [&](int column) { return cells.column(column)[x]; };
         using C = RowSaturation;
+        const auto cover = cells.covered[x / kBlock];
+        const auto in = [&](int column) { return cover == C::kFluid ? 0 : cells.column(column)[x]; };
         const double u[3] = {in(C::kUs), in(C::kUs + 1), in(C::kUs + 2)};
         const Saturation<double> s =
             mixture(in(C::kFraction), in(C::kStrength), u, p.scheme == Scheme::bounce_back).saturation;
         Exchange<double> answer;
-        const double bounce = in(C::kBounce);
+        const double bounce = cover == C::kWall ? in(C::kBounce) : 0;
         if (inertia) collide_beside_wall<L, true>(f, p, s, bounce, answer);
         else collide_beside_wall<L, false>(f, p, s, bounce, answer);
         const double rho = inertia ? 1 + before.drho : 1;
@@ -83,7 +84,7 @@ void for_cells(const Populations<L, T>& populations, const CollisionParameters& 
             const bool covered = solids.covers(row);
             if (covered) solids.saturate(row, cells);
             read_row(populations, p, inertia, static_cast<int>(row % ny), static_cast<int>(row / ny), cells, body);
-            if (covered) solids.clear(cells);
+            if (covered) cells.clear();
         }
     }
 }

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "fields/row_saturation.hpp"
+#include "lattice/vec3.hpp"
+
+#include <cstdint>
+
+namespace lbm {
+
+/// What rows need to know of a solid.
+struct RowSolid {
+    Vec3 centre, velocity, angular_velocity;
+    double k;                    ///< of its strength
+    const double* fractions;     ///< of its cells
+    const std::uint8_t* bounce;  ///< which of them turn populations round, or null
+};
+
+/// Cells side by side in a row that a solid touches.
+struct Piece {
+    std::int32_t solid, sums;
+    std::uint32_t fractions;  ///< of the first cell among those of the solid; a block more may be read before and after the piece
+    std::int32_t x0, n;
+    std::int8_t image[3];  ///< of the lattice in which these cells lie as the solid's centre sees it
+};
+
+/**
+ * Sums over cells of a solid, eight lanes each: F, P, b and b r^2 in `plain`; rx F, rx Py, rx Pz in `x`; ry and rz times the plain ones. F is the solid
+ * force, P = eps j_post, b the weight of RowSaturation; r from the solid's centre.
+ */
+struct alignas(64) PieceSums {
+    double plain[8], x[8], y[8], z[8];
+};
+
+struct PiecesOfRow {
+    const Piece *begin, *end;
+    const RowSolid* solids;
+    std::array<int, 3> n;  ///< cells of the lattice
+    int y, z;              ///< of the row
+};
+
+struct SolidRowKernels {
+    /// Writes what the solids say to the cells of a row, and marks the covered blocks.
+    void (*saturate)(const PiecesOfRow& row, RowSaturation& cells) noexcept;
+    /// Adds the cells' answers to the solids' sums.
+    void (*collect)(const PiecesOfRow& row, const RowSaturation& cells, PieceSums* sums) noexcept;
+};
+
+/// The widest variant that this processor runs. All variants give the same bits.
+SolidRowKernels solid_row_kernels();
+
+}  // namespace lbm
