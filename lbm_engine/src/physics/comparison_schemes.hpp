@@ -111,12 +111,14 @@ template <class L, bool inertia, class V>
                                                           const Saturation<V>& s, const V& bounce, Exchange<V>& out)
 {
     V turned[L::Q];
+#pragma GCC unroll 27
     for (int i = 0; i < L::Q; ++i) turned[i] = f[i];
     Exchange<V> of_wall;
     const Seen<V> wall =
         collide_published<L, inertia>(turned, p, s.u_s, {bounce, 1 - bounce, 2 * bounce}, true, of_wall);
     const Seen<V> other = collide_with_solids<L, inertia>(f, p, s, out);
     const auto is_wall = bounce > 0.5;
+#pragma GCC unroll 27
     for (int i = 0; i < L::Q; ++i) f[i] = is_wall ? turned[i] : f[i];
     for (int d = 0; d < 3; ++d) {
         out.force[d] = is_wall ? of_wall.force[d] : out.force[d];
