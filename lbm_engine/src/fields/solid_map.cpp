@@ -13,9 +13,9 @@ namespace {
 
 /// Goes along an axis from cell i0 on, not wrapped.
 struct Walk {
-    int n, size;  ///< cells of the lattice, and in a unit
-    int cell;     ///< wrapped
-    int image;    ///< cells not wrapped are cell + image n
+    int n, size;   ///< cells of the lattice, and in a unit
+    int cell;      ///< wrapped
+    int image;     ///< cells not wrapped are cell + image n
     int unit = 0;  ///< of those passed, from 0 on
 
     Walk(int i0, int n_, int size_) : n(n_), size(size_), cell(wrap(i0, n_)), image((i0 - cell) / n_) {}
@@ -251,8 +251,11 @@ void SolidMap::for_spans(int first_plane, int end_plane, Body body) const
                 if (spans[j].n == 0) continue;
                 const std::uint32_t sums = sums_begin_[s] + z.unit * solid.units_y + y.unit;
                 body(static_cast<std::size_t>(z.cell) * n_[1] + y.cell,
-                     Piece{static_cast<std::int32_t>(s), static_cast<std::int32_t>(sums), spans[j].fractions,
-                           spans[j].x0, spans[j].n,
+                     Piece{static_cast<std::int32_t>(s),
+                           static_cast<std::int32_t>(sums),
+                           spans[j].fractions,
+                           spans[j].x0,
+                           spans[j].n,
                            {0, static_cast<std::int8_t>(y.image), static_cast<std::int8_t>(z.image)}});
             }
         }
@@ -271,8 +274,7 @@ void SolidMap::list_rows()
     constexpr int kSlabs = 16;
     const auto for_slabs = [&](auto&& body) {
 #pragma omp parallel for schedule(dynamic)
-        for (int slab = 0; slab < kSlabs; ++slab)
-            for_spans(n_[2] * slab / kSlabs, n_[2] * (slab + 1) / kSlabs, body);
+        for (int slab = 0; slab < kSlabs; ++slab) for_spans(n_[2] * slab / kSlabs, n_[2] * (slab + 1) / kSlabs, body);
     };
     std::fill(row_begin_.begin(), row_begin_.end(), 0);
     for_slabs([&](std::size_t row, const Piece& span) {
@@ -311,8 +313,9 @@ void SolidMap::tell_rows()
     row_solids_.resize(solids_.size());
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const MappedSolid& m = solids_[s];
-        row_solids_[s] = {m.solid.geometry.centre, m.solid.velocity,   m.solid.angular_velocity, m.k,
-                          m.fractions.data(),      m.bounce.empty() ? nullptr : m.bounce.data()};
+        row_solids_[s] = {m.solid.geometry.centre,  m.solid.velocity,
+                          m.solid.angular_velocity, m.k,
+                          m.fractions.data(),       m.bounce.empty() ? nullptr : m.bounce.data()};
     }
 }
 

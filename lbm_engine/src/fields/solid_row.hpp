@@ -18,7 +18,8 @@ struct RowSolid {
 /// Cells side by side in a row that a solid touches.
 struct Piece {
     std::int32_t solid, sums;
-    std::uint32_t fractions;  ///< of the first cell among those of the solid; a block more may be read before and after the piece
+    std::uint32_t
+        fractions;  ///< of the first cell among those of the solid; a block more may be read before and after the piece
     std::int32_t x0, n;
     std::int8_t image[3];  ///< of the lattice in which these cells lie as the solid's centre sees it
 };
