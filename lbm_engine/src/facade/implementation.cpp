@@ -6,6 +6,7 @@
 #include "lattice/message.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <new>
 
 namespace lbm {
@@ -130,7 +131,7 @@ void Fluid::Implementation::step()
         [&](auto& f) {
             auto* const slots = f.data();
             const auto x_faces = [&, to_odd = !f.odd](int y, int z) { faces.stream_row(slots, y, z, to_odd); };
-            const FlowWatch flow = sweep(f, collision, config.inertia, map, x_faces);
+            const FlowWatch flow = sweep(f, collision, config.inertia, map, std::cref(x_faces));
             times.collide_stream += watch_time.lap();
             faces.stream(f.data(), f.odd);
             times.exchange += watch_time.lap();

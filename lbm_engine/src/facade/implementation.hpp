@@ -47,7 +47,9 @@ struct Fluid::Implementation {
     std::int64_t steps = 0, steps_before_dt = 0;  // the latter when dt became what it is
     double time_before_dt = 0;
 
-    std::vector<Solid> solids;        // as last placed
+    std::vector<Solid> solids;                 // as last placed
+    std::vector<LatticeSolid> lattice_solids;  // while placing, and their indices before, or -1
+    std::vector<int> previous;
     std::vector<LoadLedger> ledgers;  // in the same order
     struct Motion {
         Vec3 velocity, angular_velocity;

@@ -75,7 +75,7 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
     validate(config, now);
     if (!same_ids) require_unique_ids(now);
 
-    std::vector<int> previous(now.size());
+    previous.resize(now.size());
     bool any_new = false;
     for (std::ptrdiff_t s = 0; s < count; ++s) {
         if (same_ids) {
@@ -87,7 +87,7 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
         previous[s] = known ? found->second : -1;
         any_new = any_new || !known;
     }
-    std::vector<LatticeSolid> lattice_solids(now.size());
+    lattice_solids.resize(now.size());
 #pragma omp parallel for schedule(static) if (count > 256)
     for (std::ptrdiff_t s = 0; s < count; ++s)
         lattice_solids[s] = in_lattice_units(previous[s] < 0 ? now[s] : in_mid_step(now[s], last_motions[previous[s]]));

@@ -2,6 +2,8 @@
 
 #include "lattice/wrap.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,18 +17,36 @@ namespace {
 struct Walk {
     int n, size;   ///< cells of the lattice, and in a unit
     int cell;      ///< wrapped
-    int image;     ///< cells not wrapped are cell + image n
+    int image;     ///< not wrapped it is cell + image n
+    int rest;      ///< cells that are left in the unit after this one
     int unit = 0;  ///< of those passed, from 0 on
 
-    Walk(int i0, int n_, int size_) : n(n_), size(size_), cell(wrap(i0, n_)), image((i0 - cell) / n_) {}
+    Walk(int i0, int n_, int size_) : n(n_), size(size_), cell(i0), image(0)
+    {
+        // Solids reach into the next image, rarely further.
+        if (cell < -n || cell >= 2 * n) {
+            cell = wrap(cell, n);
+            image = (i0 - cell) / n;
+        } else if (cell < 0) {
+            cell += n;
+            image = -1;
+        } else if (cell >= n) {
+            cell -= n;
+            image = 1;
+        }
+        rest = size - 1 - cell % size;
+    }
     void next()
     {
-        const int before = cell / size;
         if (++cell == n) {
             cell = 0;
             ++image;
+            unit += n > size;
+            rest = size - 1;
+        } else if (rest-- == 0) {
+            ++unit;
+            rest = size - 1;
         }
-        unit += cell / size != before;
     }
 };
 
@@ -90,7 +110,8 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
     bool bodies_changed = !same_set;
     for (std::ptrdiff_t s = 0; s < count && !bodies_changed; ++s)
         bodies_changed = solids_[s].solid.body != solids[s].body;
-    std::vector<std::uint8_t> moved(solids.size());
+    moved_.resize(solids.size());
+    const auto moved = moved_.data();
 #pragma omp parallel for schedule(static) if (count > 256)
     for (std::ptrdiff_t s = 0; s < count; ++s)
         moved[s] = !(solids_[s].solid.geometry == solids[s].geometry) || solids_[s].solid.body != solids[s].body ||
@@ -104,9 +125,10 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
     }
 
     bool spans_changed = !same_set;
+    fractions_.resize(std::max<std::size_t>(fractions_.size(), omp_get_max_threads()), {n_, periodic_});
 #pragma omp parallel reduction(|| : spans_changed) if (count > 8)
     {
-        SolidFraction fraction(n_, periodic_);
+        SolidFraction& fraction = fractions_[omp_get_thread_num()];
         std::vector<SolidGeometry> others;
 #pragma omp for schedule(dynamic, 8)
         for (std::ptrdiff_t s = 0; s < count; ++s) {
@@ -142,10 +164,11 @@ void SolidMap::mark_walls()
         solid.bounce.clear();
         if (solid.solid.geometry.shape != Shape::box || !solid.whole_cells) continue;
         solid.bounce.assign(solid.fractions.size(), 0);
-        for (std::size_t i = 0; i < solid.spans.size(); ++i) {
+        for (std::size_t i = 0; i + 1 < solid.spans.size(); ++i) {
             const Span& span = solid.spans[i];
+            const auto n = static_cast<int>(solid.spans[i + 1].fractions - span.fractions);
             const int y = solid.y0 + static_cast<int>(i) % solid.ny, z = solid.z0 + static_cast<int>(i) / solid.ny;
-            for (int x = 0; x < span.n; ++x)
+            for (int x = 0; x < n; ++x)
                 solid.bounce[span.fractions + x] =
                     solid.fractions[span.fractions + x] == 1 && is_wall_cell(solid.solid, boxes, {span.x0 + x, y, z});
         }
@@ -200,9 +223,11 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
     solid.z0 = first[2];
     solid.nz = count[2];
     solid.spans.clear();
-    solid.fractions.assign(kBlock, 0.0);
+    solid.spans.reserve(static_cast<std::size_t>(solid.ny) * solid.nz + 1);
+    std::size_t fractions = kBlock;
+    const bool lone_sphere = geometry.shape == Shape::sphere && others.empty();
     double inside = 0, outside = 0;
-    bool whole_cells = true;
+    bool whole_cells = !lone_sphere;
     for (int k = 0; k < count[2]; ++k)
         for (int j = 0; j < count[1]; ++j) {
             const double* row = fraction.row(j, k);
@@ -219,17 +244,27 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
             }
             for (int i = begin; i < in_begin; ++i) outside += row[i];
             for (int i = in_end; i < end; ++i) outside += row[i];
-            for (int i = in_begin; i < in_end; ++i) {
-                inside += row[i];
-                whole_cells = whole_cells && (row[i] == 1 || row[i] == 0);
-            }
-            solid.spans.push_back(
-                {first[0] + in_begin, in_end - in_begin, static_cast<std::uint32_t>(solid.fractions.size())});
-            solid.fractions.insert(solid.fractions.end(), row + in_begin, row + in_end);
+            if (!lone_sphere)
+                for (int i = in_begin; i < in_end; ++i) {
+                    inside += row[i];
+                    whole_cells = whole_cells && (row[i] == 1 || row[i] == 0);
+                }
+            solid.spans.push_back({first[0] + in_begin, static_cast<std::uint32_t>(fractions)});
+            fractions += in_end - in_begin;
         }
-    solid.fractions.insert(solid.fractions.end(), kBlock, 0.0);
+    solid.spans.push_back({0, static_cast<std::uint32_t>(fractions)});
+    fractions += kBlock;
+    // A solid that moves gets a little more than it needs, and should not ask for memory again.
+    const bool moves = !solid.fractions.empty();
+    if (fractions > solid.fractions.capacity()) solid.fractions.reserve(fractions + (moves ? fractions / 8 : 0));
+    solid.fractions.resize(fractions, 0.0);
+    for (int k = 0; k < solid.nz; ++k)
+        for (int j = 0; j < solid.ny; ++j) {
+            const Span* const span = &solid.spans[static_cast<std::size_t>(k) * solid.ny + j];
+            std::copy_n(fraction.row(j, k) + (span->x0 - first[0]), span[1].fractions - span->fractions,
+                        solid.fractions.data() + span->fractions);
+        }
     const double R = geometry.radius;
-    const bool lone_sphere = geometry.shape == Shape::sphere && others.empty();
     solid.volume = lone_sphere ? 4 * std::numbers::pi / 3 * R * R * R - outside : inside;
     solid.whole_cells = whole_cells;
     solid.units_y = units_along(solid.y0, solid.ny, n_[1], units_.rows);
@@ -248,14 +283,15 @@ void SolidMap::for_spans(int first_plane, int end_plane, Body body) const
             Walk y(solid.y0, n_[1], units_.rows);
             const Span* const spans = solid.spans.data() + static_cast<std::size_t>(k) * solid.ny;
             for (int j = 0; j < solid.ny; ++j, y.next()) {
-                if (spans[j].n == 0) continue;
+                const auto n = static_cast<std::int32_t>(spans[j + 1].fractions - spans[j].fractions);
+                if (n == 0) continue;
                 const std::uint32_t sums = sums_begin_[s] + z.unit * solid.units_y + y.unit;
                 body(static_cast<std::size_t>(z.cell) * n_[1] + y.cell,
                      Piece{static_cast<std::int32_t>(s),
                            static_cast<std::int32_t>(sums),
                            spans[j].fractions,
                            spans[j].x0,
-                           spans[j].n,
+                           n,
                            {0, static_cast<std::int8_t>(y.image), static_cast<std::int8_t>(z.image)}});
             }
         }
@@ -278,7 +314,8 @@ void SolidMap::list_rows()
     };
     std::fill(row_begin_.begin(), row_begin_.end(), 0);
     for_slabs([&](std::size_t row, const Piece& span) {
-        row_begin_[row + 1] += 1 + (wrap(span.x0, n_[0]) + span.n - 1) / n_[0];
+        int end = Walk(span.x0, n_[0], 1).cell + span.n;
+        for (; end > 0; end -= n_[0]) ++row_begin_[row + 1];
     });
     for (std::size_t r = 1; r < row_begin_.size(); ++r) row_begin_[r] += row_begin_[r - 1];
     pieces_.resize(row_begin_.back());
@@ -311,7 +348,9 @@ void SolidMap::scale_velocities(double s)
 void SolidMap::tell_rows()
 {
     row_solids_.resize(solids_.size());
-    for (std::size_t s = 0; s < solids_.size(); ++s) {
+    const auto count = static_cast<std::ptrdiff_t>(solids_.size());
+#pragma omp parallel for schedule(static) if (count > 256)
+    for (std::ptrdiff_t s = 0; s < count; ++s) {
         const MappedSolid& m = solids_[s];
         row_solids_[s] = {m.solid.geometry.centre,  m.solid.velocity,
                           m.solid.angular_velocity, m.k,

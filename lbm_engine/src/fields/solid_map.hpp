@@ -104,15 +104,15 @@ public:
 
 private:
     struct Span {
-        std::int32_t x0, n;       // x0 not wrapped
-        std::uint32_t fractions;  // offset
+        std::int32_t x0;          // not wrapped
+        std::uint32_t fractions;  // offset; those of the next span follow
     };
     struct MappedSolid {
         LatticeSolid solid;
         double k = 0, volume = 0;
         int y0 = 0, ny = 0, z0 = 0, nz = 0;  // rows, not wrapped
         int units_y = 0, units_z = 0;        // of rows, that they lie in
-        std::vector<Span> spans;             // ny * nz
+        std::vector<Span> spans;             // ny * nz, and an end
         std::vector<double> fractions;       // a block of padding before and after those of the spans
         bool whole_cells = false;
         std::vector<std::uint8_t> bounce;  // of a box along the lattice: whether a cell turns populations round
@@ -136,6 +136,8 @@ private:
     Weighting weighting_;
     RowUnits units_;
     std::vector<MappedSolid> solids_;
+    std::vector<std::uint8_t> moved_;       // while updating
+    std::vector<SolidFraction> fractions_;  // for each thread
     std::vector<RowSolid> row_solids_;
     std::vector<std::uint32_t> row_begin_;  // (ny * nz + 1)
     std::vector<std::uint32_t> row_next_;   // while sorting

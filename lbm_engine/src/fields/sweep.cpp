@@ -3,6 +3,17 @@
 #include <algorithm>
 
 namespace lbm {
+namespace {
+
+/// Of the calling thread, kept from step to step.
+RowSaturation& scratch_row(int nx)
+{
+    thread_local RowSaturation row(nx);
+    if (row.stride != padded_to_blocks(nx)) row = RowSaturation(nx);
+    return row;
+}
+
+}  // namespace
 
 template <class L, class T>
 FlowWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
@@ -16,7 +27,7 @@ FlowWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bo
     solids.clear_sums();
 #pragma omp parallel
     {
-        RowSaturation cells(nx);
+        RowSaturation& cells = scratch_row(nx);
         FlowWatch watch;
         for_rows(solids.units(), [&](std::size_t row, int y, int z) {
             Slot slot[L::Q];
@@ -45,7 +56,7 @@ void sum_inside(const Populations<L, T>& populations, const CollisionParameters&
     solids.clear_sums();
 #pragma omp parallel
     {
-        RowSaturation cells(populations.layout.n[0]);
+        RowSaturation& cells = scratch_row(populations.layout.n[0]);
         for_rows(solids.units(), [&](std::size_t row, int y, int z) {
             if (!solids.covers(row)) return;
             solids.saturate(row, cells);
