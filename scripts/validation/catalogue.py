@@ -8,7 +8,8 @@ from .lubrication import LUBRICATION
 from .packs import PACKS
 from .schemes import STUDY
 from .schemes_geometry import GEOMETRY
-from .spheres import COUETTE_CASE, STREAM, TORQUE, TOWED, WALLS_CASE
+from .spheres import COUETTE_CASE, TORQUE, TOWED, WALLS_CASE
+from .streams import STREAM
 from .suspensions import SUSPENSIONS
 from .tau import TAU
 from .ten_cate import TEN_CATE

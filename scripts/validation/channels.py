@@ -21,10 +21,10 @@ def poiseuille(n, magic_parameter, tau):
     return {"mean": result["superficial_velocity"][0] / DRIVE, "cells": n, "steps": result["steps"]}
 
 
-def duct(ratio, n, magic_parameter, tau):
+def duct(ratio, n, magic_parameter, tau, lattice="D3Q19"):
     """Mean velocity in a rectangular duct with n cells along its short side, in units of G b^2 / mu, b half of it."""
     case = stokes((1, round(ratio * n), n), [], tau, 1e-9, acceleration=[DRIVE, 0, 0], boundaries={"y": WALLS, "z": WALLS},
-                  magic_parameter=magic_parameter)
+                  magic_parameter=magic_parameter, lattice=lattice)
     result = lbm(case)
     return {"mean": result["superficial_velocity"][0] / DRIVE / (n / 2) ** 2, "cells": result["cells"], "steps": result["steps"]}
 
@@ -59,8 +59,9 @@ def runs(quick):
                 yield Run(poiseuille, {"n": n, "magic_parameter": magic, "tau": tau}, 1e-3)
     for ratio in DUCTS:
         for n in (8, 16, 32):
-            for magic in (0.125, 0.1875):
+            for magic in (1 / 12, 0.125, 0.1875):
                 yield Run(duct, {"ratio": ratio, "n": n, "magic_parameter": magic, "tau": 2.0}, 2e-2)
+            yield Run(duct, {"ratio": ratio, "n": n, "magic_parameter": 0.125, "tau": 2.0, "lattice": "D3Q27"}, 3e-2)
     for radius in (4, 8, 16) if quick else (4, 6, 8, 12, 16, 24):
         for offset in offsets(8):
             yield Run(pipe, {"radius": radius, "offset": offset, "tau": 1.0}, 0.02 * (radius / 8) ** 3)
@@ -130,6 +131,10 @@ def oscillating_error(result):
     return float(np.abs(found - plate(result["alpha"], s)).max())
 
 
+def lattice(result):
+    return result.arguments.get("lattice", "D3Q19")
+
+
 def of(results, function):
     return [r for r in results if r.function == function.__name__]
 
@@ -140,9 +145,10 @@ def rows(results):
         worst = max(abs(poiseuille_error(r)) for r in group)
         what = "velocities (their mean)" if magic == 0.1875 else "flow rate"
         found.append(Row(f"Poiseuille, {what}, Lambda = {magic:g}", "H = 4 ... 16", "0.6 ... 5", worst, 1e-10))
-    for (ratio, magic, n), group in groups(of(results, duct), "ratio", "magic_parameter", "n").items():
-        target = 1e-3 if n == 16 and ratio == 1 else None
-        found.append(Row(f"flow rate, duct {ratio:g} : 1, Lambda = {magic:g}", f"2b = {n}", "2", group[0]["mean"] / DUCTS[ratio] - 1, target))
+    for r in of(results, duct):
+        target = 1e-3 if r["n"] == 16 and r["ratio"] == 1 else None
+        found.append(Row(f"flow rate, duct {r['ratio']:g} : 1, {lattice(r)}, Lambda = {r['magic_parameter']:.3g}", f"2b = {r['n']}", "2",
+                         r["mean"] / DUCTS[r["ratio"]] - 1, target))
     for (radius,), group in groups(of(results, pipe), "radius").items():
         s = Spread.of(r["rate"] - 1 for r in group)
         found.append(Row("flow rate, round pipe", f"R = {radius}", "1", s.mean, {8: 0.02, 16: 0.005}.get(radius), s.worst, s.scatter))
@@ -158,14 +164,19 @@ def text(results):
     sizes = groups(of(results, pipe), "radius")
     order = observed_order([radius for radius, in sizes], [Spread.of(r["rate"] - 1 for r in g).mean for g in sizes.values()])
     orders = []
-    for (ratio, magic), group in groups(of(results, duct), "ratio", "magic_parameter").items():
+    ducts = {}
+    for r in of(results, duct):
+        ducts.setdefault((r["ratio"], lattice(r), r["magic_parameter"]), []).append(r)
+    for (ratio, name, magic), group in ducts.items():
+        group.sort(key=lambda r: r["n"])
         errors = [r["mean"] / DUCTS[ratio] - 1 for r in group]
-        orders.append((f"{ratio:g} : 1", f"{magic:g}", *map(percent, errors), f"{observed_order([r['n'] for r in group], errors):.2f}"))
+        orders.append((f"{ratio:g} : 1", name, f"{magic:.3g}", *map(percent, errors), f"{observed_order([r['n'] for r in group], errors):.2f}"))
     return f"""
-Square ducts: the flow rate is the sum over cells, whose midpoint rule alone is off by 1/(2 N^2) for a parabola; Lambda = 1/8 makes up for it between plates and
-in part in a duct.
+Ducts: the flow rate is the sum over cells, whose midpoint rule alone is off by 1/(2 N^2) for a parabola; walls with Lambda = 1/8 make up for it, exactly between plates. In a duct the lattice's Laplacian counts too. That of D3Q19 couples
+a cell of the cross-section with four neighbours, with an error along the fourth derivatives d4/dy4 + d4/dz4; that of D3Q27, with eight, is isotropic: its error, the Laplacian of the Laplacian, vanishes for a flow whose Laplacian is uniform. So D3Q27
+with Lambda = 1/8, its default, has nearly no error, and D3Q19 has the least with a Lambda of 0.073, where the walls' error makes up for that of the corners.
 
-{table(("duct", "Lambda", "2b = 8", "16", "32", "order"), orders)}
+{table(("duct", "lattice", "Lambda", "2b = 8", "16", "32", "order"), orders)}
 
 Round pipe: observed order {order:.1f} of the mean error. The series used at the nodes agree with the tables of the reference folder to {check_series():.0e}
 (start-up) and {check_plate():.0e} (oscillating plate).

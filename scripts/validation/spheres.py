@@ -1,4 +1,4 @@
-"""Single spheres: between walls, turning, towed through the lattice, in shear, in a stream."""
+"""Single spheres: between walls, turning, towed through the lattice, in shear."""
 
 import math
 
@@ -14,7 +14,6 @@ SC_K = {float(row["c"]): float(row["K"]) for row in reference("02_cubic_arrays_s
 BOX_K = {float(row["d_over_W"]): float(row["K"]) for row in reference("05_sphere_in_box.csv") if row["box"].startswith("tenCate")}
 TUBE_K = {float(row["lambda_a_over_R"]): float(row["K_computed"]) for row in reference("05_sphere_in_cylinder.csv")}
 COUETTE = {float(row["a_over_H"]): row for row in reference("08_couette_cell_single_sphere.csv")}
-CLIFT = {float(row["Re"]): float(row["Clift1978"]) for row in reference("05_sphere_drag_correlations.csv")}
 
 
 # torque of a turning sphere
@@ -240,67 +239,4 @@ of the sphere (reciprocal theorem: eta_r - 1 = S_xz / (mu gamma V)). Errors are 
     runs=lambda quick: list(couette_runs(quick)),
     rows=couette_rows,
     text=lambda results: "A sphere of 6.4 cells (a / H = 0.1 in 32 cells) is below the eight that are advised; its rotation rate depends on the offset by more than the target.",
-)
-
-
-# a stream past a sphere
-
-def stream(reynolds, d, width, length, tau, shift):
-    """Drag coefficient of a sphere in a stream, from a quarter of the flow (planes of symmetry through the axis).
-
-    Stream along x from a velocity face at 40 % of the length before the sphere to a pressure face; far sides slip freely.
-    """
-    viscosity = d / reynolds  # U = 1, dx = 1, density = 1
-    centre = [round(0.4 * length) + shift, 0, 0]
-    case = {
-        "domain": {"cells": [length, width, width], "dx": 1.0},
-        "fluid": {"density": 1.0, "viscosity": viscosity},
-        "tau": tau,
-        "max_mach": 0.5,
-        "boundaries": {
-            "x": {"min": {"type": "velocity", "velocity": [1, 0, 0]}, "max": {"type": "pressure", "pressure": 0}},
-            "y": {"min": {"type": "freeSlip"}, "max": {"type": "freeSlip"}},
-            "z": {"min": {"type": "freeSlip"}, "max": {"type": "freeSlip"}},
-        },
-        "solids": [sphere(centre, d / 2)],
-        "stop": {"steady": 0, "max_steps": 0},
-    }
-    dt = (tau - 0.5) / 3 / viscosity
-    convective = length / dt
-    case["stop"]["max_steps"] = round(max(3 * convective, 0.1 * width**2 / viscosity / dt))
-    result = lbm(case)
-    drag = 4 * result["solids"][0]["force"][0]
-    return {"Cd": drag / (0.5 * math.pi * d * d / 4), "mach": math.sqrt(3) * dt, "cells": result["cells"], "steps": result["steps"]}
-
-
-# Reynolds number, cells per diameter, speed in cells per step. With u dx / nu above about 8 the velocity face is unstable (see docs/physics.md,
-# "Sound"), so that the diameter has to grow with the Reynolds number.
-STREAMS = ((10, 8, 0.05), (20, 8, 0.05), (20, 12, 0.05), (50, 8, 0.05), (50, 12, 0.05), (100, 16, 0.06))
-
-
-def stream_runs(quick):
-    for reynolds, d, speed in ((20, 8, 0.05), (50, 8, 0.06)) if quick else STREAMS:
-        width, length = 5 * d, 14 * d
-        tau = round(0.5 + 3 * speed * d / reynolds, 5)
-        yield Run(stream, {"reynolds": reynolds, "d": d, "width": width, "length": length, "tau": tau, "shift": 0.3},
-                  width**2 * length * 3 * length / speed / 1e9)
-
-
-def stream_rows(results):
-    return [Row(f"drag coefficient, Re = {r['reynolds']:g}", f"d = {r['d']}, W = {2 * r['width'] / r['d']:.0f} d", f"{r['tau']:g}",
-                r["Cd"] / CLIFT[r["reynolds"]] - 1, 0.02) for r in of(results, stream)]
-
-
-STREAM = Case(
-    name="stream",
-    title="A sphere in a stream, Re up to 100",
-    solved="""
-Uniform stream past a sphere: velocity face before it, pressure face behind it, free-slip sides ten diameters apart; a quarter of the flow between two free-slip planes of
-symmetry (the wake is steady and axisymmetric up to Re = 210). The run lasts three times the length of the box over the speed. Re = 200 is not here: with u dx / nu above about
-8 the flow at the velocity face is unstable (seen at Re = 100 with 8 cells per diameter), and 24 cells per diameter take longer than the whole report.""",
-    reference="""
-`05_sphere_drag_correlations.csv`, standard drag curve of Clift, Grace & Weber (1978), itself within 2 %, for an unbounded stream. The sides of the box add to the drag: the
-blockage (0.8 % of the section) speeds the stream up by about 1 % around the sphere, and at Re = 10 viscosity still reaches the sides.""",
-    runs=lambda quick: list(stream_runs(quick)),
-    rows=stream_rows,
 )

@@ -5,8 +5,7 @@ import math
 import numpy as np
 from scene import arguments, leave
 from yade import O, Vector3, utils
-from yade.wrapper import (Bo1_Sphere_Aabb, Bo1_Wall_Aabb, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom, Ig2_Wall_Sphere_ScGeom,
-                          InsertionSortCollider, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack,
+from yade.wrapper import (Bo1_Sphere_Aabb, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack,
                           NewtonIntegrator)
 
 from yadelbm import LbmEngine
@@ -24,18 +23,21 @@ if settling:
 else:
     gamma = given["reynolds"] / a**2
     weight, unit, push = 0.0, 1 / gamma, 6 * math.pi * a**2 * gamma
+BALLS, BEADS = 1, 2  # masks
 # contacts that give in by a hundredth of a radius under the typical force
 material = FrictMat(density=ratio, young=push / (0.01 * a * a), poisson=0.3, frictionAngle=0)
 O.materials.append(material)
-O.periodic = settling
-if settling:
-    O.cell.setBox(n, n, n)
+O.periodic = True
+O.cell.setBox(n, n, n if settling else n + 6 * a)
 balls = [O.bodies.append(utils.sphere([x * n for x in centre], a)) for centre in given["centres"]]
 if not settling:
-    # A scene of YADE is periodic along all axes or none, so this one is not: the fluid wraps the spheres around along x and y, and films, which know the
-    # images, keep them apart. YADE's contacts do not; only those with the plates are used.
-    for z, sense in ((0, 1), (n, -1)):
-        O.bodies.append(utils.wall(z, axis=2, sense=sense))
+    # The plates are faces of the fluid's box. What keeps spheres from going through them are layers of fixed spheres outside, level to an eighth of a cell: walls and
+    # boxes of YADE do not touch what has left the first period. The cell is higher than the box, so that no sphere meets one at the other plate.
+    bead, rows = 2 * a, round(n / 2)
+    for z in (-bead, n + bead):
+        for i in range(rows):
+            for j in range(rows):
+                O.bodies.append(utils.sphere(((i + 0.5) * n / rows, (j + 0.5) * n / rows, z), bead, fixed=True, mask=BEADS | BALLS))
 speed = 0 if settling else gamma * n / 2
 still = (0, 0, 0)
 fluid = LbmEngine(lower=(0, 0, 0), upper=(n, n, n), dx=1, density=1, viscosity=1, tau=tau, gravity=(0, 0, -weight),
@@ -44,15 +46,24 @@ fluid = LbmEngine(lower=(0, 0, 0), upper=(n, n, n), dx=1, density=1, viscosity=1
                   boundaryVelocity=[still] * 4 + [(-speed, 0, 0), (speed, 0, 0)], ids=balls, label="fluid")
 O.engines = [
     ForceResetter(),
-    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]),
-    InteractionLoop([Ig2_Sphere_Sphere_ScGeom()] if settling else [Ig2_Wall_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
-                    [Law2_ScGeom_FrictPhys_CundallStrack()]),
+    InsertionSortCollider([Bo1_Sphere_Aabb()], avoidSelfInteractionMask=BEADS),
+    InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
     fluid,
     NewtonIntegrator(gravity=(0, 0, -weight), damping=0),
 ]
 if not settling:
     for ball in balls:  # on their way with the shear already
         O.bodies[ball].state.vel = Vector3(gamma * (O.bodies[ball].state.pos[2] - n / 2), 0, 0)
+
+
+def contact_stress():
+    """What contacts among the spheres carry of the shear stress (Love-Weber)."""
+    total = 0.0
+    for contact in O.interactions:
+        if contact.isReal and contact.id1 <= balls[-1] and contact.id2 <= balls[-1]:
+            total -= contact.phys.normalForce[0] * contact.geom.normal[2] * (2 * a - contact.geom.penetrationDepth)
+    return total / n**3
+
 
 total = math.ceil(given["duration"] * unit / O.dt)
 every = max(1, total // 2000)
@@ -65,7 +76,7 @@ while O.iter < total:
     else:
         wall = (fluid.getBoundaryForce(4)[0] - fluid.getBoundaryForce(5)[0]) / 2
         stresslets = sum(fluid.stresslet(b)[0][2] for b in balls)
-        samples.append((abs(wall) / (n * n * gamma), stresslets / (n**3 * gamma)))
+        samples.append((abs(wall) / (n * n * gamma), stresslets / (n**3 * gamma), contact_stress() / gamma))
 result = {"n": n, "radius_cells": a, "cells": n**3, "steps": O.iter, "samples": len(samples)}
 if settling:
     late = np.array(samples[len(samples) // 3:])
@@ -79,7 +90,8 @@ else:
     apart[..., :2] -= n * np.round(apart[..., :2] / n)
     distance = np.sqrt((apart**2).sum(-1)) + 1e9 * np.eye(len(balls))
     result["nearest"] = float(distance.min() / (2 * a))  # distance of centres in diameters
-    wall, stresslet = late.mean(0)
-    result.update(eta=float(wall), eta_stresslet=float(1 + stresslet),
+    wall, stresslet, contact = late.mean(0)
+    blocks = [block[:, 0].mean() for block in np.array_split(late, 6)]
+    result.update(eta=float(wall), error=float(np.std(blocks, ddof=1) / math.sqrt(6)), eta_stresslet=float(1 + stresslet), eta_contacts=float(contact),
                   history=[round(float(b.mean()), 5) for b in np.array_split(np.array(samples)[:, 0], 24)])
 leave(result)
