@@ -6,6 +6,7 @@ from .dumb_bell import DUMB_BELL
 from .free import FREE
 from .lubrication import LUBRICATION
 from .packs import PACKS
+from .rod import ROD
 from .schemes import STUDY
 from .schemes_geometry import GEOMETRY
 from .spheres import COUETTE_CASE, TORQUE, TOWED, WALLS_CASE
@@ -16,5 +17,5 @@ from .ten_cate import TEN_CATE
 from .time_coupling import TIME_COUPLING
 from .time_steps import TIME_STEPS
 
-CASES = [CHANNELS, ARRAYS, TAU, STUDY, GEOMETRY, WALLS_CASE, TORQUE, TOWED, DUMB_BELL, LUBRICATION, FREE, TEN_CATE, COUETTE_CASE, STREAM, TIME_COUPLING, TIME_STEPS,
+CASES = [CHANNELS, ARRAYS, TAU, STUDY, GEOMETRY, WALLS_CASE, TORQUE, TOWED, DUMB_BELL, ROD, LUBRICATION, FREE, TEN_CATE, COUETTE_CASE, STREAM, TIME_COUPLING, TIME_STEPS,
          PACKS, SUSPENSIONS]

@@ -31,13 +31,13 @@ def shear(phi, count, diameter, duration, seed):
 
 def runs(quick):
     for phi in (0.1, 0.3) if quick else (0.1, 0.2, 0.3, 0.4):
-        count, d, duration = (30, 8, 8) if quick else (100, 8, 16)
+        count, d, duration = (30, 8, 8) if quick else (200, 8, 12)
         cells = count * math.pi / 6 * d**3 / phi
         yield Run(settling, {"phi": phi, "count": count, "diameter": d, "duration": duration, "seed": 1}, 1.3 * cells * duration * 960 / 1e9)
-    for phi in (0.1, 0.3) if quick else (0.1, 0.2, 0.3):  # above, missing contacts let spheres pass through each other
-        count, d, duration = (30, 8, 3) if quick else (100, 8, 6)
-        cells = count * math.pi / 6 * d**3 / phi
-        yield Run(shear, {"phi": phi, "count": count, "diameter": d, "duration": duration, "seed": 1}, 1.5 * cells * duration * 960 / 1e9)
+    for phi in (0.1, 0.3) if quick else (0.1, 0.2, 0.3):
+        d, gap, duration = (8, 6, 2) if quick else (8, 8, 5)
+        arguments = {"phi": phi, "count": round(phi * gap**3 / (math.pi / 6)), "diameter": d, "duration": duration, "seed": 1}
+        yield Run(shear, arguments, 1.5 * (gap * d) ** 3 * duration * 960 / 1e9)
 
 
 def exponent(points, law):

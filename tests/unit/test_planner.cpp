@@ -252,6 +252,10 @@ class Planner : public CppUnit::TestFixture {
     {
         PlanRequest r = request(1e-3);
         CPPUNIT_ASSERT(plan_time_step(r).warnings.empty());
+        r.viscosity = 0.005;
+        assert_says(plan_time_step(r).report,
+                    "the boundary layer of a grain with the Reynolds number 90 is about 1.58");
+        r = request(1e-3);
         r.smallest_radius = 3e-3;
         assert_says(plan_time_step(r).report, "only 6 cells per diameter");
         r.tau = 1.5;

@@ -31,6 +31,7 @@ constexpr double kMaxTauWithoutSpeed = 1;
 
 /// Cells across a diameter below which drag errors of several per cent are to be expected.
 constexpr double kWantedCellsPerDiameter = 8;
+constexpr double kWantedResolutionError = 0.02;
 
 /// Contact frequency times fluid step above which the liquid hardly damps what rings (docs/physics.md, "Loads in time").
 constexpr double kWantedContactPhase = 1;
@@ -206,6 +207,13 @@ std::vector<std::string> warnings(const PlanRequest& r, const Plan& p)
     if (p.cells_per_diameter > 0 && p.cells_per_diameter < kWantedCellsPerDiameter)
         all.push_back(message("only ", p.cells_per_diameter, " cells per diameter of the smallest solid: at least ",
                               kWantedCellsPerDiameter, " are wanted for a drag within about 1 %"));
+    const double cells = r.mean_diameter / r.dx;
+    const double error = cells > 0 && p.reynolds > 0 ? resolution_error(cells, p.reynolds, 0) : 0;
+    if (p.reynolds > 1 && error > kWantedResolutionError)
+        all.push_back(message("the boundary layer of a grain with the Reynolds number ", p.reynolds, " is about ",
+                              cells / std::sqrt(p.reynolds), " cells thick: its drag is some ", 100 * error,
+                              " % too high; dx <= ", r.dx * std::sqrt(kWantedResolutionError / error),
+                              " m would keep that below ", 100 * kWantedResolutionError, " %"));
     if (p.tau > 1 && p.cells_per_diameter > 0)
         all.push_back(message("tau = ", p.tau, ": steady loads do not depend on it, but transients shorter than ",
                               p.shortest_transient, " s are not resolved"));
