@@ -55,9 +55,15 @@ def oscillation():
     O.engines = [PyRunner(command="move()", iterPeriod=1, initRun=True)] + O.engines
     O.run((given["periods"] - 1) * steps, True)
     amplitude = 0
-    for _ in range(steps):
-        O.run(1, True)
-        amplitude = amplitude + 2 / steps * profile() * complex(math.cos(omega * O.time), -math.sin(omega * O.time))
+
+    def project():
+        nonlocal amplitude
+        time = O.time + O.dt  # at the end of this step
+        amplitude = amplitude + 2 / steps * profile() * complex(math.cos(omega * time), -math.sin(omega * time))
+
+    builtins.project = project
+    O.engines = O.engines + [PyRunner(command="project()", iterPeriod=1, initRun=True)]
+    O.run(steps, True)
     return {"real": list(amplitude.real), "imaginary": list(amplitude.imag), "alpha_used": n * math.sqrt(omega)}
 
 
