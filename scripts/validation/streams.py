@@ -7,41 +7,38 @@ from .plotting import COLOURS
 from .report import percent, table
 
 CLIFT = {float(row["Re"]): float(row["Clift1978"]) for row in reference("05_sphere_drag_correlations.csv")}
-NARROW, WIDE = 5, 8  # half the distance of the sides, in diameters
+SLIM, NARROW, WIDE = 4, 5, 8  # half the distance of the sides, in diameters
 
 
-def stream(reynolds, d, half_width, speed, magic_parameter, duration):
+def past_sphere(reynolds, d, half_width, speed, magic_parameter, duration):
     """Drag coefficient of a sphere in a stream (see scenes/stream.py); `magic_parameter` 0 for the default."""
     return yade("stream.py", {"reynolds": reynolds, "d": d, "speed": speed, "half_width": half_width, "before": half_width, "behind": 1.2 * half_width,
                               "shift": 0.3, "magic_parameter": magic_parameter, "duration": duration})
 
 
-# Reynolds number: cells per diameter, speed in cells per step, duration in diameters of the way
-FINE = {1: ((8, 0.05, 25),), 10: ((8, 0.05, 20), (12, 0.05, 20)), 20: ((8, 0.05, 20), (12, 0.05, 20)), 50: ((8, 0.05, 20), (12, 0.05, 20), (16, 0.07, 20)),
-        100: ((12, 0.05, 25), (16, 0.07, 25)), 200: ((24, 0.07, 30),)}
+# Reynolds number: cells per diameter, half width, speed in cells per step, duration in diameters of the way, Lambda (0: the default)
+CASES = ((1, 8, NARROW, 0.05, 25, 0), (1, 8, NARROW, 0.05, 25, 0.25), (1, 8, WIDE, 0.05, 25, 0.25),
+         (10, 8, NARROW, 0.05, 20, 0), (10, 8, NARROW, 0.05, 20, 0.25), (10, 8, WIDE, 0.05, 20, 0.25),
+         (20, 8, NARROW, 0.05, 20, 0), (20, 8, NARROW, 0.05, 20, 0.25), (20, 8, WIDE, 0.05, 20, 0.25), (20, 12, NARROW, 0.05, 20, 0.25),
+         (50, 8, NARROW, 0.05, 20, 0), (50, 8, NARROW, 0.05, 20, 0.25), (50, 8, WIDE, 0.05, 20, 0.25), (50, 12, NARROW, 0.05, 20, 0),
+         (50, 12, NARROW, 0.05, 20, 0.25), (50, 16, NARROW, 0.07, 20, 0), (50, 16, NARROW, 0.07, 20, 0.25),
+         (100, 16, NARROW, 0.07, 25, 0), (100, 16, NARROW, 0.07, 25, 0.25), (200, 20, SLIM, 0.07, 20, 0.25))
+REYNOLDS = tuple(sorted({case[0] for case in CASES}))
 
 
 def runs(quick):
-    def cost(d, half_width, speed, duration):
-        return 2.2 * half_width**3 * d**3 * duration * d / speed / 1e9
-
-    for reynolds, grids in FINE.items():
-        for d, speed, duration in grids[:1] if quick else grids:
-            if quick and d > 8:
-                continue
-            for magic_parameter in (0.25,) if quick or d > 16 else (0, 0.25):
-                arguments = {"reynolds": reynolds, "d": d, "half_width": NARROW, "speed": speed, "magic_parameter": magic_parameter, "duration": duration}
-                yield Run(stream, arguments, cost(d, NARROW, speed, duration))
-    for reynolds in (10, 50) if quick else (1, 10, 20, 50):
-        arguments = {"reynolds": reynolds, "d": 8, "half_width": WIDE, "speed": 0.05, "magic_parameter": 0.25, "duration": 20 if reynolds > 1 else 25}
-        yield Run(stream, arguments, cost(8, WIDE, 0.05, 20))
+    for reynolds, d, half_width, speed, duration, magic_parameter in CASES:
+        if quick and (d > 8 or reynolds not in (10, 50) or magic_parameter == 0):
+            continue
+        arguments = {"reynolds": reynolds, "d": d, "half_width": half_width, "speed": speed, "magic_parameter": magic_parameter, "duration": duration}
+        yield Run(past_sphere, arguments, 2.2 * half_width**3 * d**4 * duration / speed / 1e9)
 
 
 def blockages(results):
     """Reynolds number: what sides at NARROW diameters add to the drag, from two distances and the square of their inverse."""
-    coefficients = {(r["reynolds"], r["half_width"]): r["Cd"] for r in of(results, stream) if r["d"] == 8 and r["magic_parameter"] == 0.25}
+    coefficients = {(r["reynolds"], r["half_width"]): r["Cd"] for r in of(results, past_sphere) if r["d"] == 8 and r["magic_parameter"] == 0.25}
     found = {}
-    for reynolds in FINE:
+    for reynolds in REYNOLDS:
         narrow, wide = (coefficients.get((reynolds, width)) for width in (NARROW, WIDE))
         if narrow and wide:
             unbounded = wide - (narrow - wide) / ((WIDE / NARROW) ** 2 - 1)
@@ -55,7 +52,8 @@ def blockages(results):
 def unbounded(results):
     """(result, drag coefficient without the sides' part), where that is known."""
     known = blockages(results)
-    return [(r, r["Cd"] / (1 + known[r["reynolds"]])) for r in of(results, stream) if r["half_width"] == NARROW and r["reynolds"] in known]
+    return [(r, r["Cd"] / (1 + known[r["reynolds"]] * (NARROW / r["half_width"]) ** 2)) for r in of(results, past_sphere)
+            if r["half_width"] < WIDE and r["reynolds"] in known]
 
 
 def name(r):
@@ -63,9 +61,9 @@ def name(r):
 
 
 def rows(results):
-    found = []
-    for r, coefficient in unbounded(results):
-        finest = r["d"] == max(d for d, _, _ in FINE[r["reynolds"]])
+    found, points = [], unbounded(results)
+    for r, coefficient in points:
+        finest = r["d"] == max(other["d"] for other, _ in points if other["reynolds"] == r["reynolds"])
         found.append(Row(f"drag coefficient, Re = {r['reynolds']:g}, Lambda = {name(r)}", f"d = {r['d']}", f"{0.5 + 3 * r['speed'] * r['d'] / r['reynolds']:.3g}",
                          coefficient / CLIFT[r["reynolds"]] - 1, 0.02 if finest else None))
     return found
@@ -87,7 +85,7 @@ def text(results):
 def figures(results):
     def draw(canvas):
         axis = canvas.subplots()
-        for (reynolds, colour) in zip(FINE, COLOURS * 2):
+        for (reynolds, colour) in zip(REYNOLDS, COLOURS * 2):
             for parameter, style in ((0, "o--"), (0.25, "s-")):
                 points = sorted((1 / r["d"], 100 * (c / CLIFT[reynolds] - 1)) for r, c in unbounded(results) if r["reynolds"] == reynolds and r["magic_parameter"] == parameter)
                 if points:
