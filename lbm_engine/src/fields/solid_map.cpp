@@ -277,6 +277,8 @@ void SolidMap::for_spans(int first_plane, int end_plane, Body body) const
 {
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const MappedSolid& solid = solids_[s];
+        const int end = solid.z0 + solid.nz;
+        if (solid.z0 >= 0 && end <= n_[2] && (solid.z0 >= end_plane || end <= first_plane)) continue;
         Walk z(solid.z0, n_[2], units_.planes);
         for (int k = 0; k < solid.nz; ++k, z.next()) {
             if (z.cell < first_plane || z.cell >= end_plane) continue;
