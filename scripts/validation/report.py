@@ -24,8 +24,7 @@ NOT_COVERED = """\
 ## Not covered yet
 
 - Minimum fluidisation (`10_min_fluidisation.csv`), consolidation (`09_terzaghi_*.csv`) and Skempton's B (`09_skempton_B.csv`): coupled beds of many grains between pistons, which need worked scenes first.
-- A sphere in a stream at Re = 200 (see the case `stream`).
-- Suspensions of several hundred spheres and more than one arrangement each; the case `suspensions` has one of 100.
+- More than one arrangement of each suspension; the total angular momentum of free spheres in a closed box.
 """
 
 
