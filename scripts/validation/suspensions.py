@@ -75,7 +75,7 @@ def text(results):
     return "\n".join(lines) + """
 
 Sheared spheres touch each other across the periodic images and are held between the plates by layers of fixed spheres outside the fluid. The balance closes: the stress on the plates is the fluid's, the stresslets and the contacts. Contacts carry little,
-so what the viscosity is above Eilers' correlation is in the stresslets; it grows with the strain. With films off 83 spheres at phi = 0.2 (six diameters between the plates, strain 2) have 1.86 instead of 1.95, of which contacts carry 0.11 instead of 0.01. Settling: published exponents for small Reynolds numbers differ (4.65 of Richardson & Zaki, 5.1 of Garside & Al-Dibouni: 0.074 at phi = 0.4, where the first gives 0.093).
+so what the viscosity is above Eilers' correlation is in the stresslets; it grows with the strain. With films off 83 spheres at phi = 0.2 (six diameters between the plates, strain 2) have 1.86 instead of 1.95, of which contacts carry 0.11 instead of 0.01. A gap of eight diameters between smooth plates is part of it. Settling: a periodic box of 100 or 200 spheres settles slower than an endless suspension (U / U_t lower by about 0.06 and 0.025 at phi = 0.1 and 0.2 with 100 spheres, 1.76 (phi / N)^(1/3) S(0) / eta_r with the structure factor of hard spheres [Ladd 1990]); published exponents for small Reynolds numbers differ (4.65 of Richardson & Zaki, 5.1 of Garside & Al-Dibouni: 0.074 at phi = 0.4, where the first gives 0.093).
 """
 
 
