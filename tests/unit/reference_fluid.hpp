@@ -76,18 +76,26 @@ private:
         shares_.assign(f_[0].size(), {});
         for (std::size_t s = 0; s < solids.size(); ++s) {
             SphereFraction fraction;
-            fraction.evaluate(solids[s].position, solids[s].radius);
+            const Vec3& centre = solids[s].position;
+            const double R = solids[s].radius;
+            fraction.evaluate(centre, R);
             const auto first = fraction.first(), count = fraction.count();
-            for (int k = 0; k < count[2]; ++k)
-                for (int j = 0; j < count[1]; ++j)
-                    for (int i = 0; i < count[0]; ++i) {
-                        const double epsilon = fraction.row(j, k)[i];
+            const auto exact = [&](int x, int y, int z) {
+                const int i = x - first[0], j = y - first[1], k = z - first[2];
+                const bool within = i >= 0 && i < count[0] && j >= 0 && j < count[1] && k >= 0 && k < count[2];
+                return within ? fraction.row(j, k)[i] : 0.0;
+            };
+            const auto images = is_fixed(solids[s]) ? images_of_others(solids, s) : std::vector<Image>{};
+            constexpr int kBeside = 2;  // cells around the sphere that may be in its gaps
+            for (int z = first[2] - kBeside; z < first[2] + count[2] + kBeside; ++z)
+                for (int y = first[1] - kBeside; y < first[1] + count[1] + kBeside; ++y)
+                    for (int x = first[0] - kBeside; x < first[0] + count[0] + kBeside; ++x) {
+                        const Vec3 r = Vec3{x + 0.5, y + 0.5, z + 0.5} - centre;
+                        const double epsilon = with_gaps(exact(x, y, z), r, R, images);
                         if (epsilon == 0) continue;
-                        std::array<int, 3> at{first[0] + i, first[1] + j, first[2] + k};
-                        Vec3 r{};
+                        std::array<int, 3> at{x, y, z};
                         bool inside = true;
                         for (int d = 0; d < 3; ++d) {
-                            r[d] = at[d] + 0.5 - solids[s].position[d];
                             if (c_.faces[2 * d].type == FaceType::periodic)
                                 at[d] = (at[d] % c_.cells[d] + c_.cells[d]) % c_.cells[d];
                             else inside = inside && at[d] >= 0 && at[d] < c_.cells[d];
@@ -95,6 +103,60 @@ private:
                         if (inside) shares_[cell(at[0], at[1], at[2])].push_back({s, epsilon, r});
                     }
         }
+    }
+
+    static bool is_fixed(const Solid& s)
+    {
+        return std::isinf(s.mass) && std::isinf(s.inertia) && s.velocity == Vec3{} && s.angular_velocity == Vec3{};
+    }
+
+    struct Image {
+        Vec3 from_me;  ///< centre, from that of the solid
+        double radius;
+    };
+
+    std::vector<Image> images_of_others(const std::vector<Solid>& solids, std::size_t me) const
+    {
+        std::vector<Image> images;
+        for (std::size_t s = 0; s < solids.size(); ++s)
+            for (int turns = 0; turns < 27; ++turns) {
+                const int t[3] = {turns % 3 - 1, turns / 3 % 3 - 1, turns / 9 - 1};
+                Vec3 at = solids[s].position - solids[me].position;
+                bool exists = is_fixed(solids[s]) && (s != me || turns != 13);
+                for (int d = 0; d < 3; ++d) {
+                    exists = exists && (t[d] == 0 || c_.faces[2 * d].type == FaceType::periodic);
+                    at[d] += t[d] * c_.cells[d];
+                }
+                if (exists) images.push_back({at, solids[s].radius});
+                for (int face = 0; face < 6; ++face) {
+                    const FaceType type = c_.faces[face].type;
+                    if (turns != 13 || !is_fixed(solids[s]) ||
+                        (type != FaceType::free_slip && type != FaceType::pressure))
+                        continue;
+                    const int d = face / 2;
+                    Vec3 mirrored = solids[s].position - solids[me].position;
+                    mirrored[d] =
+                        (face % 2 == 0 ? 0 : 2 * c_.cells[d]) - solids[s].position[d] - solids[me].position[d];
+                    images.push_back({mirrored, solids[s].radius});
+                }
+            }
+        return images;
+    }
+
+    /// The fluid between two spheres counts as fluid by (gap / 1.9)^0.4; each takes the rest on its side of the middle.
+    static double with_gaps(double epsilon, const Vec3& r, double R, const std::vector<Image>& images)
+    {
+        double raised = epsilon;
+        for (const Image& other : images) {
+            const Vec3 r2 = r - other.from_me;
+            const double d1 = norm(r) - R, d2 = norm(r2) - other.radius, gap = d1 + d2;
+            if (dot(r, r2) >= 0 || gap >= 1.9) continue;
+            const double apart = norm(other.from_me), middle = 0.5 * (apart + R - other.radius);
+            const double side = std::clamp(0.5 + middle - dot(r, other.from_me) / apart, 0.0, 1.0);
+            const double open = std::pow(std::max(gap, 0.0) / 1.9, 0.4);
+            raised = std::max(raised, epsilon + (side - epsilon) * (1 - open));
+        }
+        return raised;
     }
 
     void collide_and_push(int x, int y, int z, const std::vector<Solid>& solids)

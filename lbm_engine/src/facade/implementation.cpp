@@ -83,6 +83,15 @@ AnyPopulations make_populations(const FluidConfig& c)
     }
 }
 
+/// Faces that are mirrors of the flow (domain/faces.hpp).
+std::array<bool, 6> mirrors(const FluidConfig& c)
+{
+    std::array<bool, 6> mirrors;
+    for (int face = 0; face < 6; ++face)
+        mirrors[face] = c.faces[face].type == FaceType::free_slip || c.faces[face].type == FaceType::pressure;
+    return mirrors;
+}
+
 }  // namespace
 
 Fluid::Implementation::Implementation(const FluidConfig& c)
@@ -92,7 +101,7 @@ Fluid::Implementation::Implementation(const FluidConfig& c)
     , collision(collision_parameters(c, units))
     , populations(make_populations(c))
     , faces(std::visit([&](const auto& f) { return Faces(f.layout, lattice_faces(c, units), c.inertia); }, populations))
-    , map(c.cells, periodic_axes(c), Weighting(c.lattice, magic_parameter(c)))
+    , map(c.cells, periodic_axes(c), mirrors(c), Weighting(c.lattice, magic_parameter(c)), c.scheme == Scheme::exact)
     , films(c.cells, periodic_axes(c), c.lubrication_roughness)
 {
     start_at(mean_face_pressure(lattice_faces(c, units)), (1 / units.velocity) * c.initial_velocity);

@@ -34,6 +34,8 @@ LatticeSolid Fluid::Implementation::in_lattice_units(const Solid& solid) const
     lattice.velocity = (1 / units.velocity) * solid.velocity;
     lattice.angular_velocity = units.time * solid.angular_velocity;
     geometry.centre = centre_in_box(solid);
+    lattice.fixed = !std::isfinite(solid.mass) && !std::isfinite(solid.inertia) && solid.velocity == Vec3{} &&
+                    solid.angular_velocity == Vec3{};
     return lattice;
 }
 

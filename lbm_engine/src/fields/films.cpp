@@ -32,36 +32,9 @@ Films::Films(const std::array<int, 3>& cells, const std::array<bool, 3>& periodi
     : n_(cells)
     , periodic_(periodic)
     , roughness_(roughness)
+    , neighbours_(cells, periodic)
     , parts_(kParts)
 {
-}
-
-void Films::sort_into_bins(const std::vector<FilmSphere>& spheres)
-{
-    double largest = 0;
-    for (const FilmSphere& s : spheres) largest = std::max(largest, s.radius);
-    const double range = 2 * largest + kWidestFilm + kMargin;
-    std::size_t count = 1;
-    for (int d = 0; d < 3; ++d) {
-        bins_[d] = std::max(1, static_cast<int>(n_[d] / range));
-        reach_[d] = static_cast<int>(std::ceil(range * bins_[d] / n_[d]));
-        count *= bins_[d];
-    }
-    bin_of_.resize(spheres.size());
-    bin_begin_.assign(count + 1, 0);
-    for (std::size_t s = 0; s < spheres.size(); ++s) {
-        std::int32_t bin = 0;
-        for (int d = 2; d >= 0; --d) {
-            const double place = std::floor(spheres[s].centre[d] * bins_[d] / n_[d]);
-            bin = bin * bins_[d] + static_cast<std::int32_t>(std::clamp(place, 0.0, bins_[d] - 1.0));
-        }
-        bin_of_[s] = bin;
-        ++bin_begin_[bin + 1];
-    }
-    for (std::size_t b = 0; b < count; ++b) bin_begin_[b + 1] += bin_begin_[b];
-    in_bin_.resize(spheres.size());
-    std::vector<std::int32_t> next(bin_begin_.begin(), bin_begin_.end() - 1);
-    for (std::size_t s = 0; s < spheres.size(); ++s) in_bin_[next[bin_of_[s]]++] = static_cast<std::int32_t>(s);
 }
 
 /// Whether the last search holds; brings the centres along.
@@ -84,7 +57,13 @@ bool Films::still_near(const std::vector<FilmSphere>& spheres, const std::array<
 
 void Films::search(const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls)
 {
-    sort_into_bins(spheres);
+    double largest = 0;
+    centres_.clear();
+    for (const FilmSphere& s : spheres) {
+        largest = std::max(largest, s.radius);
+        centres_.push_back(s.centre);
+    }
+    neighbours_.sort(centres_, 2 * largest + kWidestFilm + kMargin);
     const auto count = static_cast<std::int64_t>(spheres.size());
 #pragma omp parallel for schedule(dynamic, 1) if (count > 64)
     for (int part = 0; part < kParts; ++part) {
@@ -94,11 +73,7 @@ void Films::search(const std::vector<FilmSphere>& spheres, const std::array<cons
     }
     for (int face = 0; face < 6; ++face) searched_walls_[face] = walls[face] != nullptr;
     searched_.clear();
-    centres_.clear();
-    for (const FilmSphere& s : spheres) {
-        searched_.push_back({s.centre, s.radius, s.body});
-        centres_.push_back(s.centre);
-    }
+    for (const FilmSphere& s : spheres) searched_.push_back({s.centre, s.radius, s.body});
 }
 
 void Films::search_around(std::int32_t first, const std::vector<FilmSphere>& spheres,
@@ -111,35 +86,14 @@ void Films::search_around(std::int32_t first, const std::vector<FilmSphere>& sph
         const double distance = face % 2 == 0 ? one.centre[d] : n_[d] - one.centre[d];
         if (walls[face] && distance < one.radius + kWidestFilm + kMargin) near.push_back({first, -1 - face, {}});
     }
-    int bin[3], rest = bin_of_[first];
-    for (int d = 0; d < 3; ++d) {
-        bin[d] = rest % bins_[d];
-        rest /= bins_[d];
-    }
-    int at[3];
-    for (at[2] = bin[2] - reach_[2]; at[2] <= bin[2] + reach_[2]; ++at[2])
-        for (at[1] = bin[1] - reach_[1]; at[1] <= bin[1] + reach_[1]; ++at[1])
-            for (at[0] = bin[0] - reach_[0]; at[0] <= bin[0] + reach_[0]; ++at[0]) {
-                Vec3 shift{};
-                std::size_t other = 0;
-                bool inside = true;
-                for (int d = 2; d >= 0; --d) {
-                    const int turns = static_cast<int>(std::floor(static_cast<double>(at[d]) / bins_[d]));
-                    inside = inside && (turns == 0 || periodic_[d]);
-                    shift[d] = static_cast<double>(turns) * n_[d];
-                    other = other * bins_[d] + (at[d] - turns * bins_[d]);
-                }
-                if (!inside) continue;
-                for (std::int32_t i = bin_begin_[other]; i < bin_begin_[other + 1]; ++i) {
-                    const std::int32_t second = in_bin_[i];
-                    if (second <= first) continue;
-                    const FilmSphere& two = spheres[second];
-                    if (two.radius == 0 || (one.body >= 0 && one.body == two.body)) continue;
-                    const Vec3 apart = two.centre + shift - one.centre;
-                    const double reach = one.radius + two.radius + kWidestFilm + kMargin;
-                    if (dot(apart, apart) < reach * reach) near.push_back({first, second, shift});
-                }
-            }
+    neighbours_.for_near(first, [&](std::int32_t second, const Vec3& shift) {
+        if (second <= first) return;
+        const FilmSphere& two = spheres[second];
+        if (two.radius == 0 || (one.body >= 0 && one.body == two.body)) return;
+        const Vec3 apart = two.centre + shift - one.centre;
+        const double reach = one.radius + two.radius + kWidestFilm + kMargin;
+        if (dot(apart, apart) < reach * reach) near.push_back({first, second, shift});
+    });
 }
 
 void Films::make_films(const std::vector<FilmSphere>& spheres, double viscosity, Part& part) const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fields/neighbours.hpp"
 #include "physics/lubrication.hpp"
 
 #include <array>
@@ -63,7 +64,6 @@ private:
 
     bool still_near(const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls);
     void search(const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls);
-    void sort_into_bins(const std::vector<FilmSphere>& spheres);
     void search_around(std::int32_t first, const std::vector<FilmSphere>& spheres,
                        const std::array<const Vec3*, 6>& walls, std::vector<Place>& near) const;
     void make_films(const std::vector<FilmSphere>& spheres, double viscosity, Part& part) const;
@@ -72,6 +72,7 @@ private:
     std::array<int, 3> n_;
     std::array<bool, 3> periodic_;
     double roughness_;
+    Neighbours neighbours_;
 
     // of the last search
     struct Searched {
@@ -82,10 +83,6 @@ private:
     std::vector<Searched> searched_;
     std::array<bool, 6> searched_walls_{};
     std::vector<Part> parts_;
-
-    // bins: counting sort
-    std::array<int, 3> bins_{}, reach_{};
-    std::vector<std::int32_t> bin_begin_, in_bin_, bin_of_;
 
     std::vector<Vec3> centres_;  // not wrapped since the last search
     std::vector<Place> places_;

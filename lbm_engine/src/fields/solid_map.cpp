@@ -68,11 +68,15 @@ RowUnits::RowUnits(int ny_, int nz_) : ny(ny_), nz(nz_)
     rows = (ny + parts - 1) / parts;
 }
 
-SolidMap::SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const Weighting& weighting)
+SolidMap::SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic,
+                   const std::array<bool, 6>& mirrors, const Weighting& weighting, bool fill_gaps)
     : n_(cells)
     , periodic_(periodic)
+    , mirrors_(mirrors)
     , weighting_(weighting)
+    , fill_gaps_(fill_gaps)
     , units_(cells[1], cells[2])
+    , neighbours_(cells, periodic)
     , row_begin_(static_cast<std::size_t>(cells[1]) * cells[2] + 1, 0)
 {
 }
@@ -89,6 +93,48 @@ std::vector<std::vector<int>> SolidMap::earlier_of_body(const std::vector<Lattic
         body.push_back(static_cast<int>(s));
     }
     return earlier;
+}
+
+/// Gets ready for find_near.
+void SolidMap::search_near(const std::vector<LatticeSolid>& solids)
+{
+    centres_.clear();
+    double largest = 0;
+    for (const LatticeSolid& solid : solids) {
+        centres_.push_back(solid.geometry.centre);
+        if (solid.geometry.shape == Shape::sphere) largest = std::max(largest, solid.geometry.radius);
+    }
+    neighbours_.sort(centres_, 2 * largest + kNarrowGap);
+}
+
+/// Fixed spheres of other bodies, images and mirror images that leave a narrow gap to a fixed sphere.
+void SolidMap::find_near(std::size_t solid, const std::vector<LatticeSolid>& solids,
+                         std::vector<NearSphere>& near) const
+{
+    near.clear();
+    const LatticeSolid& one = solids[solid];
+    if (!fill_gaps_ || one.geometry.shape != Shape::sphere || !one.fixed) return;
+    const auto add = [&](const NearSphere& image) {
+        const Vec3 apart = image.centre - one.geometry.centre;
+        const double reach = one.geometry.radius + image.radius + kNarrowGap;
+        if (dot(apart, apart) < reach * reach) near.push_back(image);
+    };
+    const auto add_mirrored = [&](NearSphere image) {
+        for (int face = 0; face < 6; ++face) {
+            if (!mirrors_[face]) continue;
+            NearSphere mirrored = image;
+            mirrored.centre[face / 2] = (face % 2 == 0 ? 0 : 2 * n_[face / 2]) - image.centre[face / 2];
+            add(mirrored);
+        }
+    };
+    add_mirrored({one.geometry.centre, one.geometry.radius});
+    neighbours_.for_near(static_cast<std::int32_t>(solid), [&](std::int32_t other, const Vec3& shift) {
+        const LatticeSolid& two = solids[other];
+        if (two.geometry.shape != Shape::sphere || !two.fixed || (one.body >= 0 && one.body == two.body)) return;
+        const NearSphere image{two.geometry.centre + shift, two.geometry.radius};
+        add(image);
+        add_mirrored(image);
+    });
 }
 
 void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector<int>& previous)
@@ -124,12 +170,15 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
                         before.angular_velocity != solids[s].angular_velocity;
     }
 
+    if (fill_gaps_) search_near(solids);
     bool spans_changed = !same_set;
     fractions_.resize(std::max<std::size_t>(fractions_.size(), omp_get_max_threads()), {n_, periodic_});
+    near_.resize(fractions_.size());
 #pragma omp parallel reduction(|| : spans_changed) if (count > 8)
     {
         SolidFraction& fraction = fractions_[omp_get_thread_num()];
         std::vector<SolidGeometry> others;
+        std::vector<NearSphere>& near = near_[omp_get_thread_num()];
 #pragma omp for schedule(dynamic, 8)
         for (std::ptrdiff_t s = 0; s < count; ++s) {
             MappedSolid& solid = solids_[s];
@@ -141,7 +190,10 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
                     others.push_back(solids[o].geometry);
                     changed = changed || moved[o];
                 }
+            find_near(s, solids, near);
+            changed = changed || near != solid.near;
             if (!changed) continue;
+            solid.near = near;
             map(solid, fraction, others);
             spans_changed = true;
         }
@@ -215,9 +267,11 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
 {
     const SolidGeometry& geometry = solid.solid.geometry;
     fraction.evaluate(geometry, others);
+    solid.k = k(geometry);
+    measure(solid, fraction, geometry.shape == Shape::sphere && others.empty());
+    if (!solid.near.empty()) fraction.fill_gaps(geometry, solid.near);
     const auto& first = fraction.first();
     const auto& count = fraction.count();
-    solid.k = k(geometry);
     solid.y0 = first[1];
     solid.ny = count[1];
     solid.z0 = first[2];
@@ -225,32 +279,19 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
     solid.spans.clear();
     solid.spans.reserve(static_cast<std::size_t>(solid.ny) * solid.nz + 1);
     std::size_t fractions = kBlock;
-    const bool lone_sphere = geometry.shape == Shape::sphere && others.empty();
-    double inside = 0, outside = 0;
-    bool whole_cells = !lone_sphere;
     for (int k = 0; k < count[2]; ++k)
         for (int j = 0; j < count[1]; ++j) {
+            // Parts of a sphere behind a wall of the box are left out.
             const double* row = fraction.row(j, k);
-            int begin = 0, end = count[0];
+            int begin = 0, end = is_row_inside(fraction, j, k) ? count[0] : 0;
+            if (!periodic_[0]) {
+                begin = std::clamp(-first[0], begin, end);
+                end = std::clamp(n_[0] - first[0], begin, end);
+            }
             while (begin < end && row[begin] == 0) ++begin;
             while (end > begin && row[end - 1] == 0) --end;
-            // Parts of a sphere behind a wall of the box are left out.
-            const int y = solid.y0 + j, z = solid.z0 + k;
-            const bool row_inside = is_inside(y, 1) && is_inside(z, 2);
-            int in_begin = begin, in_end = row_inside ? end : begin;
-            if (!periodic_[0]) {
-                in_begin = std::clamp(-first[0], in_begin, in_end);
-                in_end = std::clamp(n_[0] - first[0], in_begin, in_end);
-            }
-            for (int i = begin; i < in_begin; ++i) outside += row[i];
-            for (int i = in_end; i < end; ++i) outside += row[i];
-            if (!lone_sphere)
-                for (int i = in_begin; i < in_end; ++i) {
-                    inside += row[i];
-                    whole_cells = whole_cells && (row[i] == 1 || row[i] == 0);
-                }
-            solid.spans.push_back({first[0] + in_begin, static_cast<std::uint32_t>(fractions)});
-            fractions += in_end - in_begin;
+            solid.spans.push_back({first[0] + begin, static_cast<std::uint32_t>(fractions)});
+            fractions += end - begin;
         }
     solid.spans.push_back({0, static_cast<std::uint32_t>(fractions)});
     fractions += kBlock;
@@ -264,11 +305,39 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
             std::copy_n(fraction.row(j, k) + (span->x0 - first[0]), span[1].fractions - span->fractions,
                         solid.fractions.data() + span->fractions);
         }
-    const double R = geometry.radius;
-    solid.volume = lone_sphere ? 4 * std::numbers::pi / 3 * R * R * R - outside : inside;
-    solid.whole_cells = whole_cells;
     solid.units_y = units_along(solid.y0, solid.ny, n_[1], units_.rows);
     solid.units_z = units_along(solid.z0, solid.nz, n_[2], units_.planes);
+}
+
+/// Volume inside the lattice, and whether surfaces cut no cell of it.
+void SolidMap::measure(MappedSolid& solid, const SolidFraction& fraction, bool lone_sphere) const
+{
+    const auto& first = fraction.first();
+    const auto& count = fraction.count();
+    const double R = solid.solid.geometry.radius, whole = 4 * std::numbers::pi / 3 * R * R * R;
+    bool within = true;
+    for (int d = 0; d < 3; ++d) within = within && is_inside(first[d], d) && is_inside(first[d] + count[d] - 1, d);
+    if (lone_sphere && within) {
+        solid.volume = whole;
+        solid.whole_cells = false;
+        return;
+    }
+    double inside = 0, outside = 0;
+    solid.whole_cells = true;
+    for (int k = 0; k < count[2]; ++k)
+        for (int j = 0; j < count[1]; ++j) {
+            const double* row = fraction.row(j, k);
+            const bool row_inside = is_row_inside(fraction, j, k);
+            for (int i = 0; i < count[0]; ++i) {
+                if (!row_inside || !is_inside(first[0] + i, 0)) {
+                    outside += row[i];
+                    continue;
+                }
+                inside += row[i];
+                solid.whole_cells = solid.whole_cells && (row[i] == 1 || row[i] == 0);
+            }
+        }
+    solid.volume = lone_sphere ? whole - outside : inside;
 }
 
 /// Calls body(row, piece, wherein x0 and n are still those of the span) for all spans with cells in planes from first to end.

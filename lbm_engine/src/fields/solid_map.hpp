@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fields/neighbours.hpp"
 #include "fields/row_saturation.hpp"
 #include "fields/solid_row.hpp"
 #include "lattice/vec3.hpp"
@@ -17,6 +18,7 @@ struct LatticeSolid {
     SolidGeometry geometry;
     std::int64_t body = -1;
     Vec3 velocity{}, angular_velocity{};
+    bool fixed = false;  ///< at rest, and not free to move
 };
 
 /// Sums of one solid over its cells in one step, in lattice units; moments about its centre.
@@ -66,12 +68,17 @@ void for_rows(const RowUnits& units, Body body)
  * Which cells the solids cover, and how much: for every solid the spans of its rows with exact fractions, and for every
  * row of the lattice the pieces of spans that lie in it.
  *
- * Only solids that moved are evaluated again, and those of their body that overlap may. Sums are kept per solid and unit of rows (RowUnits).
+ * Only solids that moved are evaluated again, those of their body that overlap may, and spheres beside them. Sums are kept per solid and unit of rows (RowUnits).
  */
 class SolidMap {
 public:
-    /// @param periodic  for each axis
-    SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const Weighting& weighting);
+    /**
+     * @param periodic   for each axis
+     * @param mirrors    faces behind which a sphere sees its mirror image
+     * @param fill_gaps  whether narrow gaps between fixed spheres count as partly filled (SolidFraction::fill_gaps)
+     */
+    SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const std::array<bool, 6>& mirrors,
+             const Weighting& weighting, bool fill_gaps);
 
     std::size_t size() const noexcept { return solids_.size(); }
     const LatticeSolid& solid(std::size_t s) const noexcept { return solids_[s].solid; }
@@ -112,6 +119,7 @@ private:
         double k = 0, volume = 0;
         int y0 = 0, ny = 0, z0 = 0, nz = 0;  // rows, not wrapped
         int units_y = 0, units_z = 0;        // of rows, that they lie in
+        std::vector<NearSphere> near;        // that leave a narrow gap
         std::vector<Span> spans;             // ny * nz, and an end
         std::vector<double> fractions;       // a block of padding before and after those of the spans
         bool whole_cells = false;
@@ -122,7 +130,10 @@ private:
     void mark_walls();
     bool is_wall_cell(const LatticeSolid& own, const std::vector<const LatticeSolid*>& boxes,
                       const std::array<int, 3>& cell) const;
+    void search_near(const std::vector<LatticeSolid>& solids);
+    void find_near(std::size_t solid, const std::vector<LatticeSolid>& solids, std::vector<NearSphere>& near) const;
     void map(MappedSolid& solid, SolidFraction& fraction, const std::vector<SolidGeometry>& others) const;
+    void measure(MappedSolid& solid, const SolidFraction& fraction, bool lone_sphere) const;
     void list_rows();
     void tell_rows();
     template <class Body>
@@ -130,14 +141,23 @@ private:
     PiecesOfRow pieces(std::size_t row) const noexcept;
     /// Whether a row or plane, not wrapped, is part of the box.
     bool is_inside(int i, int axis) const noexcept { return periodic_[axis] || (i >= 0 && i < n_[axis]); }
+    bool is_row_inside(const SolidFraction& fraction, int j, int k) const noexcept
+    {
+        return is_inside(fraction.first()[1] + j, 1) && is_inside(fraction.first()[2] + k, 2);
+    }
 
     std::array<int, 3> n_;
     std::array<bool, 3> periodic_;
+    std::array<bool, 6> mirrors_;
     Weighting weighting_;
+    bool fill_gaps_;
     RowUnits units_;
     std::vector<MappedSolid> solids_;
-    std::vector<std::uint8_t> moved_;       // while updating
-    std::vector<SolidFraction> fractions_;  // for each thread
+    Neighbours neighbours_;
+    std::vector<std::uint8_t> moved_;            // while updating
+    std::vector<Vec3> centres_;                  // while searching
+    std::vector<SolidFraction> fractions_;       // for each thread
+    std::vector<std::vector<NearSphere>> near_;  // the same
     std::vector<RowSolid> row_solids_;
     std::vector<std::uint32_t> row_begin_;  // (ny * nz + 1)
     std::vector<std::uint32_t> row_next_;   // while sorting

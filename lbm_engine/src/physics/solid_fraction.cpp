@@ -145,6 +145,71 @@ void SolidFraction::evaluate(const SolidGeometry& solid, const std::vector<Solid
     if (!others.empty()) leave_out(solid, others);
 }
 
+double passage(double gap) { return gap < kNarrowGap ? std::pow(std::max(gap, 0.0) / kNarrowGap, 0.4) : 1; }
+
+void SolidFraction::fill_gaps(const SolidGeometry& sphere, const std::vector<NearSphere>& near)
+{
+    raised_.clear();
+    std::array<int, 3> low = first_, high{};
+    for (int d = 0; d < 3; ++d) high[d] = first_[d] + count_[d];
+    const double reach = sphere.radius + 0.5 * (kNarrowGap + 1);  // of its side of a gap
+    for (const NearSphere& other : near) {
+        const Vec3 apart = other.centre - sphere.centre;
+        const double distance = norm(apart);
+        if (distance == 0) continue;
+        const double middle = 0.5 * (distance + sphere.radius - other.radius);
+        std::array<int, 3> begin, end;
+        for (int d = 0; d < 3; ++d) {
+            const double r = other.radius + kNarrowGap + 1;
+            begin[d] = static_cast<int>(std::floor(sphere.centre[d] + std::max(-reach, apart[d] - r)));
+            end[d] = static_cast<int>(std::ceil(sphere.centre[d] + std::min(reach, apart[d] + r)));
+        }
+        for (int z = begin[2]; z < end[2]; ++z)
+            for (int y = begin[1]; y < end[1]; ++y)
+                for (int x = begin[0]; x < end[0]; ++x) {
+                    const Vec3 cell{x + 0.5, y + 0.5, z + 0.5};
+                    const Vec3 r1 = cell - sphere.centre, r2 = cell - other.centre;
+                    if (dot(r1, r2) >= 0) continue;  // not between the two
+                    const double d1 = norm(r1) - sphere.radius, d2 = norm(r2) - other.radius;
+                    const double side = std::clamp(0.5 + middle - dot(r1, apart) / distance, 0.0, 1.0);
+                    const double closed = 1 - passage(d1 + d2);
+                    if (closed == 0 || side == 0) continue;
+                    const bool known = x >= first_[0] && x < first_[0] + count_[0] && y >= first_[1] &&
+                                       y < first_[1] + count_[1] && z >= first_[2] && z < first_[2] + count_[2];
+                    const double fraction = known ? row(y - first_[1], z - first_[2])[x - first_[0]] : 0;
+                    if (side <= fraction) continue;
+                    raised_.push_back({{x, y, z}, fraction + (side - fraction) * closed});
+                    for (int d = 0; d < 3; ++d) {
+                        low[d] = std::min(low[d], raised_.back().cell[d]);
+                        high[d] = std::max(high[d], raised_.back().cell[d] + 1);
+                    }
+                }
+    }
+    if (raised_.empty()) return;
+    enlarge(low, {high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+    for (const Raised& cell : raised_) {
+        double& fraction = own_row(cell.cell[1] - low[1], cell.cell[2] - low[2])[cell.cell[0] - low[0]];
+        fraction = std::max(fraction, cell.fraction);
+    }
+}
+
+/// Moves the fractions into a box of cells that contains theirs.
+void SolidFraction::enlarge(const std::array<int, 3>& first, const std::array<int, 3>& count)
+{
+    larger_.assign(static_cast<std::size_t>(count[0]) * count[1] * count[2], 0.0);
+    for (int k = 0; k < count_[2]; ++k)
+        for (int j = 0; j < count_[1]; ++j) {
+            const std::size_t to =
+                static_cast<std::size_t>(first_[2] + k - first[2]) * count[1] + (first_[1] + j - first[1]);
+            std::copy_n(row(j, k), count_[0], larger_.data() + to * count[0] + (first_[0] - first[0]));
+        }
+    own_.swap(larger_);
+    data_ = own_.data();
+    first_ = first;
+    count_ = count;
+    line_ = count[0];
+}
+
 void SolidFraction::sphere(const SolidGeometry& solid)
 {
     sphere_.evaluate(solid.centre, solid.radius);
