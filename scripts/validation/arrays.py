@@ -133,9 +133,9 @@ Error of the drag, mean ± half range over the offsets, and the slope of the wor
 {convergence(results)}
 
 The constants of the scheme were fitted on the simple cubic array with c = 0.125, so errors of dilute arrays are small by
-construction and change sign; a slope through them means little. Dense arrays were not fitted. There the gap between neighbours, in cells,
-decides: where it is narrower than about two cells the drag is too low, by about 4 % at half a cell and 1 % at one and a half, and this is why c = 0.4 and 0.5 fall short at d = 16. Lubrication corrections do not help
-here: they act on relative motion, and in a fixed bed there is none. Cubes of more than 48 cells were run with two offsets, smaller ones with eight.
+construction and change sign; a slope through them means little. Dense arrays were not fitted with them. Gaps of less than two cells count as partly filled (docs/physics.md, "Narrow gaps"), whose
+two constants were fitted at c = 0.3 to 0.65; what is left at c = 0.4 and 0.5 comes from pores of three to six cells, through which a pressure gradient drives a few per cent too much, and falls with the square of the
+cell size and faster. Cubes of more than 48 cells were run with two offsets, smaller ones with eight.
 """
 
 

@@ -72,9 +72,8 @@ Our mean against three published correlations, which differ among themselves by 
 
 {table(("c", "K", "van der Hoef 2005", "Hill, Koch & Ladd 2001", "Tenneti 2011"), lines)}
 
-The target falls short where gaps are narrow: at c = 0.5 and 0.6 most neighbours nearly touch, and with twelve cells per diameter the drag of such a pack is too low by what the grid study shows, as for touching cubic
-arrays (case `arrays`). The packs have {COUNT} spheres; scatter is half the range over packs. Gaps in a dense pack are narrower than a cell at every resolution used here; the pressure drop in them converges from below, which the
-grid study shows.
+Packs of {COUNT} spheres differ among each other, and one pack from axis to axis, by up to ten per cent (scatter is half the range over packs), so the comparison with a correlation says no more than that; the resolution is judged by the grid study, one pack on
+ever finer grids. In these packs most neighbours nearly touch; gaps narrower than two cells count as partly filled (docs/physics.md, "Narrow gaps").
 """
 
 

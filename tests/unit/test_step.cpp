@@ -48,6 +48,7 @@ class Step : public CppUnit::TestFixture {
     CPPUNIT_TEST(agrees_in_one_cell_thick_boxes);
     CPPUNIT_TEST(agrees_wherever_two_kinds_of_face_meet);
     CPPUNIT_TEST(agrees_with_solids_across_periodic_faces_and_sharing_cells);
+    CPPUNIT_TEST(agrees_where_fixed_spheres_leave_narrow_gaps);
     CPPUNIT_TEST(agrees_in_stokes_flow_with_any_magic_parameter);
     CPPUNIT_TEST(single_storage_agrees_to_its_own_round_off);
     CPPUNIT_TEST(any_number_of_threads_gives_the_same_bits);
@@ -230,6 +231,24 @@ class Step : public CppUnit::TestFixture {
         auto wide = one_sphere();
         wide[0].radius = 4.5;
         compare(driven({9, 9, 9}, 0.9), wide);
+    }
+
+    void agrees_where_fixed_spheres_leave_narrow_gaps()
+    {
+        // Between two of them, to images behind periodic faces, and to mirror images behind freeSlip faces.
+        auto solids = one_sphere();
+        solids[0].velocity = solids[0].angular_velocity = {};
+        solids[0].radius = 3;
+        solids[0].position = {3.4, 5.1, 3.6};
+        Solid second = solids[0];
+        second.id = 1;
+        second.radius = 2.4;
+        second.position = {8.2, 5.4, 6.6};
+        solids.push_back(second);
+        FluidConfig c = driven({11, 10, 12}, 0.6);
+        compare(c, solids);
+        c.faces[kZMin].type = c.faces[kZMax].type = FaceType::free_slip;
+        compare(c, solids);
     }
 
     void agrees_in_stokes_flow_with_any_magic_parameter()
