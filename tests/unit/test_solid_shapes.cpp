@@ -71,6 +71,7 @@ class SolidShapes : public CppUnit::TestFixture {
     CPPUNIT_TEST(box_along_the_axes_has_its_volume);
     CPPUNIT_TEST(turned_box_has_its_volume);
     CPPUNIT_TEST(box_larger_than_a_periodic_axis_fills_it_once);
+    CPPUNIT_TEST(box_may_be_longer_than_integers_reach);
     CPPUNIT_TEST(pipe_leaves_its_bore_open);
     CPPUNIT_TEST(overlapping_spheres_of_a_body_have_the_volume_of_their_union);
     CPPUNIT_TEST(sphere_within_another_of_its_body_is_not_there);
@@ -78,6 +79,7 @@ class SolidShapes : public CppUnit::TestFixture {
     CPPUNIT_TEST(buoyancy_of_a_body_counts_the_union);
     CPPUNIT_TEST(bodies_that_come_apart_count_all_their_volume_again);
     CPPUNIT_TEST(a_part_that_leaves_its_body_takes_its_volume_along);
+    CPPUNIT_TEST(walls_of_a_box_follow_what_its_body_covers);
     CPPUNIT_TEST(channel_between_boxes_on_the_lattice_is_exact);
     CPPUNIT_TEST(moving_box_drags_a_couette_flow);
     CPPUNIT_TEST(flow_through_a_pipe_does_not_depend_on_tau);
@@ -114,6 +116,18 @@ class SolidShapes : public CppUnit::TestFixture {
         SolidFraction fraction(kCells, kPeriodic);
         fraction.evaluate(box({3, 4, 2.5}, {50, 11, 1.5}));
         LBM_ASSERT_CLOSE(24.0 * 22 * 3, volume(fraction), kRoundOff, 1000.0);
+    }
+
+    void box_may_be_longer_than_integers_reach()
+    {
+        SolidFraction fraction(kCells, kClosed);
+        SolidGeometry g = box({3, 4, 9}, {1e10, 1e12, 3});
+        fraction.evaluate(g);
+        LBM_ASSERT_CLOSE(24.0 * 22 * 6, volume(fraction), kRoundOff, 1000.0);
+        const double a = 0.4;
+        g.axes = {{{std::cos(a), std::sin(a), 0}, {-std::sin(a), std::cos(a), 0}, {0, 0, 1}}};
+        fraction.evaluate(g);
+        LBM_ASSERT_CLOSE(24.0 * 22 * 6, volume(fraction), kLinesPerCell, 1000.0);
     }
 
     void pipe_leaves_its_bore_open()
@@ -214,6 +228,34 @@ class SolidShapes : public CppUnit::TestFixture {
         fluid.step();
         LBM_ASSERT_CLOSE(1e-4 * V, fluid.loads()[0].force[2], kRoundOff, 1.0);
         LBM_ASSERT_CLOSE(1e-4 * V, fluid.loads()[1].force[2], kRoundOff, 1.0);
+    }
+
+    void walls_of_a_box_follow_what_its_body_covers()
+    {
+        // A ball before the box in its body, moved into it or out of it, leaves the same as one that was always there.
+        FluidConfig c = test::lattice_config({22, 16, 16}, 0.8);
+        c.acceleration = {1e-5, 2e-5, 0};
+        const auto parts = [](double x) {
+            Solid cube;
+            cube.id = 1;
+            cube.body = 3;
+            cube.shape = Shape::box;
+            cube.half_extents = {3, 3, 3};
+            cube.position = {8, 8, 8};
+            return std::vector<Solid>{ball(0, {x, 8, 8}, 4, 3), cube};
+        };
+        const double beside = 15.5, inside = 12.5;
+        for (const bool enters : {true, false}) {
+            Fluid moved(c), always(c);
+            moved.place_solids(parts(enters ? beside : inside));
+            moved.place_solids(parts(enters ? inside : beside));
+            always.place_solids(parts(enters ? inside : beside));
+            for (int t = 0; t < 5; ++t) {
+                moved.step();
+                always.step();
+            }
+            CPPUNIT_ASSERT(moved.velocity_field() == always.velocity_field());
+        }
     }
 
     static Solid slab(std::int64_t id, double z, double thickness)

@@ -174,7 +174,7 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
     bool spans_changed = !same_set;
     fractions_.resize(std::max<std::size_t>(fractions_.size(), omp_get_max_threads()), {n_, periodic_});
     near_.resize(fractions_.size());
-#pragma omp parallel reduction(|| : spans_changed) if (count > 8)
+#pragma omp parallel reduction(|| : spans_changed, boxes_changed) if (count > 8)
     {
         SolidFraction& fraction = fractions_[omp_get_thread_num()];
         std::vector<SolidGeometry> others;
@@ -196,6 +196,7 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
             solid.near = near;
             map(solid, fraction, others);
             spans_changed = true;
+            boxes_changed = boxes_changed || solid.solid.geometry.shape == Shape::box;
         }
     }
     if (spans_changed) list_rows();

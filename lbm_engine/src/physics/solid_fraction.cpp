@@ -228,14 +228,14 @@ void SolidFraction::bounds(const Vec3& centre, const Vec3& half)
             count_[d] = n_[d];
             continue;
         }
-        int begin = static_cast<int>(std::floor(centre[d] - half[d] + kOnLattice));
-        int end = static_cast<int>(std::ceil(centre[d] + half[d] - kOnLattice));
-        if (!periodic_[d]) {
-            begin = std::clamp(begin, 0, n_[d]);
-            end = std::clamp(end, begin, n_[d]);
+        double begin = std::floor(centre[d] - half[d] + kOnLattice);
+        double end = std::ceil(centre[d] + half[d] - kOnLattice);
+        if (!periodic_[d]) {  // a box may be longer than integers reach
+            begin = std::clamp(begin, 0.0, static_cast<double>(n_[d]));
+            end = std::clamp(end, begin, static_cast<double>(n_[d]));
         }
-        first_[d] = begin;
-        count_[d] = end - begin;
+        first_[d] = static_cast<int>(begin);
+        count_[d] = static_cast<int>(end - begin);
     }
     line_ = count_[0];
     own_.assign(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2], 0.0);
@@ -268,8 +268,9 @@ void SolidFraction::rotated_box(const SolidGeometry& solid, const Vec3& half)
             for_lines(first_[1] + j, first_[2] + k, [&](double y, double z) {
                 const Interval line = inside(solid, y, z);
                 if (line.length() == 0) return;
-                const int begin = std::max(0, static_cast<int>(std::floor(line.begin)) - first_[0]);
-                const int end = std::min(count_[0], static_cast<int>(std::ceil(line.end)) - first_[0]);
+                const int begin =
+                    static_cast<int>(std::clamp(std::floor(line.begin) - first_[0], 0.0, double(count_[0])));
+                const int end = static_cast<int>(std::clamp(std::ceil(line.end) - first_[0], 0.0, double(count_[0])));
                 for (int i = begin; i < end; ++i) {
                     const double x = first_[0] + i;
                     own_row(j, k)[i] += overlap(line, {x, x + 1}).length() / (kLines * kLines);
