@@ -9,7 +9,9 @@ namespace {
 RowSaturation& scratch_row(int nx)
 {
     thread_local RowSaturation row(nx);
-    if (row.stride != padded_to_blocks(nx)) row = RowSaturation(nx);
+    thread_local int cells = nx;
+    // What a longer row left in the padding of this one, perhaps not even numbers, would count, times 0, in sums over blocks.
+    if (cells != nx) row = RowSaturation(cells = nx);
     return row;
 }
 
