@@ -9,7 +9,8 @@ void Neighbours::sort(const std::vector<Vec3>& points, double range)
     std::size_t count = 1;
     for (int d = 0; d < 3; ++d) {
         bins_[d] = std::max(1, static_cast<int>(n_[d] / range));
-        reach_[d] = static_cast<int>(std::ceil(range * bins_[d] / n_[d]));
+        const double reach = std::ceil(range * bins_[d] / n_[d]);
+        reach_[d] = static_cast<int>(periodic_[d] ? reach : std::min<double>(reach, bins_[d]));
         count *= bins_[d];
     }
     bin_of_.resize(points.size());

@@ -2,6 +2,7 @@
 
 #include "lattice/vec3.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -45,21 +46,27 @@ void Neighbours::for_near(std::int32_t point, Body body) const
         bin[d] = rest % bins_[d];
         rest /= bins_[d];
     }
-    int at[3];
-    for (at[2] = bin[2] - reach_[2]; at[2] <= bin[2] + reach_[2]; ++at[2])
-        for (at[1] = bin[1] - reach_[1]; at[1] <= bin[1] + reach_[1]; ++at[1])
-            for (at[0] = bin[0] - reach_[0]; at[0] <= bin[0] + reach_[0]; ++at[0]) {
+    int first[3], last[3], at[3];
+    for (int d = 0; d < 3; ++d) {
+        first[d] = bin[d] - reach_[d];
+        last[d] = bin[d] + reach_[d];
+        if (!periodic_[d]) {
+            first[d] = std::max(first[d], 0);
+            last[d] = std::min(last[d], bins_[d] - 1);
+        }
+    }
+    for (at[2] = first[2]; at[2] <= last[2]; ++at[2])
+        for (at[1] = first[1]; at[1] <= last[1]; ++at[1])
+            for (at[0] = first[0]; at[0] <= last[0]; ++at[0]) {
                 Vec3 shift{};
                 std::size_t other = 0;
-                bool inside = true, turned = false;
+                bool turned = false;
                 for (int d = 2; d >= 0; --d) {
                     const int turns = static_cast<int>(std::floor(static_cast<double>(at[d]) / bins_[d]));
-                    inside = inside && (turns == 0 || periodic_[d]);
                     turned = turned || turns != 0;
                     shift[d] = static_cast<double>(turns) * n_[d];
                     other = other * bins_[d] + (at[d] - turns * bins_[d]);
                 }
-                if (!inside) continue;
                 for (std::int32_t i = begin_[other]; i < begin_[other + 1]; ++i)
                     if (in_bin_[i] != point || turned) body(in_bin_[i], shift);
             }

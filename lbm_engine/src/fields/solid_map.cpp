@@ -170,7 +170,11 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
                         before.angular_velocity != solids[s].angular_velocity;
     }
 
-    if (fill_gaps_) search_near(solids);
+    // Who is near whom changes with fixed spheres only.
+    bool search = fill_gaps_ && !same_set;
+    for (std::ptrdiff_t s = 0; s < count && fill_gaps_ && !search; ++s)
+        search = solids_[s].solid.fixed != solids[s].fixed || (solids[s].fixed && moved_[s]);
+    if (search) search_near(solids);
     bool spans_changed = !same_set;
     fractions_.resize(std::max<std::size_t>(fractions_.size(), omp_get_max_threads()), {n_, periodic_});
     near_.resize(fractions_.size());
@@ -190,10 +194,12 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
                     others.push_back(solids[o].geometry);
                     changed = changed || moved[o];
                 }
-            find_near(s, solids, near);
-            changed = changed || near != solid.near;
+            if (search) {
+                find_near(s, solids, near);
+                changed = changed || near != solid.near;
+                solid.near = near;
+            }
             if (!changed) continue;
-            solid.near = near;
             map(solid, fraction, others);
             spans_changed = true;
             boxes_changed = boxes_changed || solid.solid.geometry.shape == Shape::box;
