@@ -68,6 +68,9 @@ class Results(unittest.TestCase):
         status, result, _ = run(case)
         self.assertEqual(status, 0)
         self.assertAlmostEqual(drag(case, result) / reference_drag(0.5), 1, delta=0.015)
+        # What filled gaps take from the fluid's share of the drive goes to the spheres.
+        whole_drive = DENSITY * DRIVE * math.prod(case["domain"]["cells"]) * DX**3
+        self.assertAlmostEqual(result["solids"][0]["force"][0] / whole_drive, 1, delta=1e-5)
 
     def test_drag_does_not_depend_on_tau(self):
         for magic_parameter in (0.125, 0.1875):

@@ -276,7 +276,12 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
     fraction.evaluate(geometry, others);
     solid.k = k(geometry);
     measure(solid, fraction, geometry.shape == Shape::sphere && others.empty());
-    if (!solid.near.empty()) fraction.fill_gaps(geometry, solid.near);
+    solid.filled = 0;
+    if (!solid.near.empty()) {
+        const double before = covered(fraction);
+        fraction.fill_gaps(geometry, solid.near);
+        solid.filled = covered(fraction) - before;
+    }
     const auto& first = fraction.first();
     const auto& count = fraction.count();
     solid.y0 = first[1];
@@ -314,6 +319,20 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
         }
     solid.units_y = units_along(solid.y0, solid.ny, n_[1], units_.rows);
     solid.units_z = units_along(solid.z0, solid.nz, n_[2], units_.planes);
+}
+
+/// Sum of the fractions inside the lattice.
+double SolidMap::covered(const SolidFraction& fraction) const
+{
+    double sum = 0;
+    for (int k = 0; k < fraction.count()[2]; ++k)
+        for (int j = 0; j < fraction.count()[1]; ++j) {
+            if (!is_row_inside(fraction, j, k)) continue;
+            const double* row = fraction.row(j, k);
+            for (int i = 0; i < fraction.count()[0]; ++i)
+                if (is_inside(fraction.first()[0] + i, 0)) sum += row[i];
+        }
+    return sum;
 }
 
 /// Volume inside the lattice, and whether surfaces cut no cell of it.

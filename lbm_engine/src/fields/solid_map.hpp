@@ -84,6 +84,8 @@ public:
     const LatticeSolid& solid(std::size_t s) const noexcept { return solids_[s].solid; }
     /// Inside the lattice; what a solid shares with earlier ones of its body is theirs.
     double volume(std::size_t s) const noexcept { return solids_[s].volume; }
+    /// Fluid in narrow gaps that counts to the solid: it takes the drive's part of it.
+    double filled(std::size_t s) const noexcept { return solids_[s].filled; }
     const RowUnits& units() const noexcept { return units_; }
 
     /**
@@ -116,7 +118,7 @@ private:
     };
     struct MappedSolid {
         LatticeSolid solid;
-        double k = 0, volume = 0;
+        double k = 0, volume = 0, filled = 0;
         int y0 = 0, ny = 0, z0 = 0, nz = 0;  // rows, not wrapped
         int units_y = 0, units_z = 0;        // of rows, that they lie in
         std::vector<NearSphere> near;        // that leave a narrow gap
@@ -134,6 +136,7 @@ private:
     void find_near(std::size_t solid, const std::vector<LatticeSolid>& solids, std::vector<NearSphere>& near) const;
     void map(MappedSolid& solid, SolidFraction& fraction, const std::vector<SolidGeometry>& others) const;
     void measure(MappedSolid& solid, const SolidFraction& fraction, bool lone_sphere) const;
+    double covered(const SolidFraction& fraction) const;
     void list_rows();
     void tell_rows();
     template <class Body>
