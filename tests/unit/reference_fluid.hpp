@@ -59,6 +59,9 @@ public:
         f_.swap(next_);
     }
 
+    /// Volume of the narrow gaps that count to a solid.
+    double filled(std::size_t solid) const { return filled_[solid]; }
+
     std::size_t cell(int x, int y, int z) const
     {
         return (static_cast<std::size_t>(z) * c_.cells[1] + y) * c_.cells[0] + x;
@@ -74,6 +77,7 @@ private:
     void map(const std::vector<Solid>& solids)
     {
         shares_.assign(f_[0].size(), {});
+        filled_.assign(solids.size(), 0);
         for (std::size_t s = 0; s < solids.size(); ++s) {
             SphereFraction fraction;
             const Vec3& centre = solids[s].position;
@@ -100,7 +104,9 @@ private:
                                 at[d] = (at[d] % c_.cells[d] + c_.cells[d]) % c_.cells[d];
                             else inside = inside && at[d] >= 0 && at[d] < c_.cells[d];
                         }
-                        if (inside) shares_[cell(at[0], at[1], at[2])].push_back({s, epsilon, r});
+                        if (!inside) continue;
+                        shares_[cell(at[0], at[1], at[2])].push_back({s, epsilon, r});
+                        filled_[s] += epsilon - exact(x, y, z);
                     }
         }
     }
@@ -314,6 +320,7 @@ private:
     std::vector<Through> through_;
     double Lambda_;
     std::vector<std::vector<Share>> shares_;
+    std::vector<double> filled_;
     std::vector<Load> loads_;
 };
 
