@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstddef>
-#include <memory>
 
 namespace lbm {
 namespace {
@@ -13,39 +11,47 @@ namespace {
 constexpr std::ptrdiff_t kElements = std::ptrdiff_t{1} << 25;  // 256 MB an array
 constexpr int kRuns = 5;
 
-template <class Body>
-double best_rate(double bytes_per_element, int threads, Body body)
-{
-    double best = 0;
-    for (int run = 0; run < kRuns; ++run) {
-        const auto start = std::chrono::steady_clock::now();
-#pragma omp parallel for schedule(static) num_threads(threads)
-        for (std::ptrdiff_t i = 0; i < kElements; ++i) body(i);
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        best = std::max(best, bytes_per_element * kElements / seconds);
-    }
-    return best;
-}
-
 }  // namespace
 
-Bandwidth measure_bandwidth(int threads)
+BandwidthMeter::BandwidthMeter(int threads) : threads_(threads), memory_(new double[3 * kElements])
 {
-    const std::unique_ptr<double[]> memory(new double[3 * kElements]);  // touched first in parallel
-    double* const a = memory.get();
-    double* const b = a + kElements;
-    double* const c = b + kElements;
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (std::ptrdiff_t i = 0; i < kElements; ++i) {
+    double* const a = memory_.get();
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (std::ptrdiff_t i = 0; i < kElements; ++i) {  // touched first by the threads that will use them
         a[i] = 0;
-        b[i] = 1;
-        c[i] = 2;
+        a[kElements + i] = 1;
+        a[2 * kElements + i] = 2;
     }
-    Bandwidth result{};
-    result.copy = best_rate(24, threads, [=](std::ptrdiff_t i) { a[i] = 1.5 * b[i]; });
-    result.triad = best_rate(32, threads, [=](std::ptrdiff_t i) { a[i] = b[i] + 1.5 * c[i]; });
-    result.in_place = best_rate(16, threads, [=](std::ptrdiff_t i) { a[i] = 0.5 * a[i] + 1.0; });
-    return result;
+}
+
+template <class Body>
+double BandwidthMeter::rate(double bytes_per_element, Body body) const
+{
+    const auto start = std::chrono::steady_clock::now();
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (std::ptrdiff_t i = 0; i < kElements; ++i) body(i);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return bytes_per_element * kElements / seconds;
+}
+
+double BandwidthMeter::triad_now() const
+{
+    double* const a = memory_.get();
+    double *const b = a + kElements, *const c = b + kElements;
+    return rate(32, [=](std::ptrdiff_t i) { a[i] = b[i] + 1.5 * c[i]; });
+}
+
+Bandwidth BandwidthMeter::best() const
+{
+    double* const a = memory_.get();
+    double* const b = a + kElements;
+    Bandwidth best{};
+    for (int run = 0; run < kRuns; ++run) {
+        best.copy = std::max(best.copy, rate(24, [=](std::ptrdiff_t i) { a[i] = 1.5 * b[i]; }));
+        best.triad = std::max(best.triad, triad_now());
+        best.in_place = std::max(best.in_place, rate(16, [=](std::ptrdiff_t i) { a[i] = 0.5 * a[i] + 1.0; }));
+    }
+    return best;
 }
 
 }  // namespace lbm

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
+
 namespace lbm {
 
 /// Sustained traffic between processor and memory, with what a store reads first counted in [bytes/s].
@@ -9,10 +12,19 @@ struct Bandwidth {
     double in_place;  ///< a = s a + b: 16 bytes an element, the pattern of streaming in place
 };
 
-/**
- * Best of a few runs over arrays far larger than any cache.
- * @param threads  >= 1
- */
-Bandwidth measure_bandwidth(int threads);
+/// Measures with arrays that are far larger than any cache.
+class BandwidthMeter {
+public:
+    explicit BandwidthMeter(int threads);  ///< >= 1
+    Bandwidth best() const;                ///< of a few runs
+    double triad_now() const;              ///< of one run
+
+private:
+    template <class Body>
+    double rate(double bytes_per_element, Body body) const;
+
+    int threads_;
+    std::unique_ptr<double[]> memory_;
+};
 
 }  // namespace lbm

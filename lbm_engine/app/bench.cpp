@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <sstream>
@@ -20,6 +21,7 @@ namespace {
 constexpr double kPopulations = 19;
 constexpr int kStepsBetweenTurns = 10;
 constexpr double kSpeed = 0.01;  // [cells per step]
+constexpr double kSlice = 0.05;  // [s]
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -89,6 +91,7 @@ std::vector<Solid> spheres(int n, double diameter, double solid_fraction)
     return all;
 }
 
+/// A case, and what it is compared with.
 struct Run {
     std::string name, storage;
     int cells, threads;
@@ -96,7 +99,7 @@ struct Run {
     bool moving;
 };
 
-nlohmann::json measure(const Run& run, double seconds)
+FluidConfig config(const Run& run)
 {
     FluidConfig c;
     c.cells = {run.cells, run.cells, run.cells};
@@ -106,54 +109,123 @@ nlohmann::json measure(const Run& run, double seconds)
     c.acceleration = {1e-7, 0, 0};
     c.threads = run.threads;
     c.storage = run.storage == "single" ? Storage::single_precision : Storage::double_precision;
-    const double start = now();
-    Fluid fluid(c);
-    std::vector<Solid> solids;
-    if (run.solid_fraction > 0) solids = spheres(run.cells, run.diameter, run.solid_fraction);
-    if (!run.moving)
-        for (Solid& s : solids) s.velocity = s.angular_velocity = {};
-    fluid.place_solids(solids);
-    const double ready = now() - start;
+    return c;
+}
 
-    int steps = 0;
-    const auto step = [&] {
-        if (run.moving) {
-            const double direction = steps / kStepsBetweenTurns % 2 ? -1 : 1;
-            for (Solid& s : solids)
-                for (int d = 0; d < 3; ++d) s.position[d] += direction * s.velocity[d];
-            fluid.place_solids(solids);
+/// A fluid that makes steps.
+class Bench {
+public:
+    explicit Bench(const Run& run) : run_(run), begin_(now()), fluid_(config(run))
+    {
+        if (run.solid_fraction > 0) solids_ = spheres(run.cells, run.diameter, run.solid_fraction);
+        for (Solid& s : solids_) {
+            if (!run.moving) {
+                s.velocity = s.angular_velocity = {};
+                continue;
+            }
+            s.mass = 2.6 * (4 * std::numbers::pi / 3) * std::pow(s.radius, 3);
+            s.inertia = 0.4 * s.mass * s.radius * s.radius;
         }
-        fluid.step();
-        if (run.moving) fluid.film_loads(solids, fluid.dt());
-        ++steps;
-    };
-    for (int i = 0; i < 4; ++i) step();
-    const StepTimes before = fluid.times();
-    const int first = steps;
-    const double begin = now();
-    while (now() - begin < seconds || steps - first < 4) step();
-    const double elapsed = now() - begin;
-    const StepTimes after = fluid.times();
+        fluid_.place_solids(solids_);
+        seconds_to_start_ = now() - begin_;
+        for (int i = 0; i < 4; ++i) step();
+        before_ = fluid_.times();
+        const double start = now();
+        step();
+        steps_of_slice_ = std::clamp(static_cast<int>(kSlice / (now() - start)), 1, 10000);
+    }
 
-    const double cells = std::pow(run.cells, 3);
-    const double updates = cells * (steps - first);
-    const double bytes = run.storage == "single" ? 4 : 8;
-    return {{"case", run.name},
-            {"cells", run.cells},
-            {"threads", run.threads},
-            {"storage", run.storage},
-            {"solids", solids.size()},
-            {"diameter", solids.empty() ? 0 : 2 * solids[0].radius},
-            {"mlups", updates / elapsed / 1e6},
-            {"nanoseconds_per_cell", 1e9 * elapsed / updates},
-            {"bytes_per_cell", static_cast<double>(fluid.memory_bytes()) / cells},
-            {"traffic", 2 * kPopulations * bytes * updates / elapsed},
-            {"seconds_to_start", ready},
-            {"parts",
-             {{"map", (after.map - before.map) / elapsed},
-              {"exchange", (after.exchange - before.exchange) / elapsed},
-              {"collide_stream", (after.collide_stream - before.collide_stream) / elapsed},
-              {"loads", (after.loads - before.loads) / elapsed}}}};
+    /// @return seconds per step
+    double slice()
+    {
+        const double start = now();
+        for (int i = 0; i < steps_of_slice_; ++i) step();
+        return (now() - start) / steps_of_slice_;
+    }
+
+    const Run& run() const { return run_; }
+    double cells() const { return std::pow(run_.cells, 3); }
+    /// One read and one write of each population.
+    double traffic_of_step() const { return 2 * kPopulations * (run_.storage == "single" ? 4 : 8) * cells(); }
+
+    /// @param seconds  per step
+    nlohmann::json result(double seconds) const
+    {
+        const StepTimes after = fluid_.times();
+        const double map = after.map - before_.map, exchange = after.exchange - before_.exchange,
+                     sweep = after.collide_stream - before_.collide_stream, loads = after.loads - before_.loads,
+                     films = after.films - before_.films, all = map + exchange + sweep + loads + films;
+        return {{"case", run_.name},
+                {"cells", run_.cells},
+                {"threads", run_.threads},
+                {"storage", run_.storage},
+                {"solids", solids_.size()},
+                {"diameter", solids_.empty() ? 0 : 2 * solids_[0].radius},
+                {"mlups", cells() / seconds / 1e6},
+                {"nanoseconds_per_cell", 1e9 * seconds / cells()},
+                {"bytes_per_cell", static_cast<double>(fluid_.memory_bytes()) / cells()},
+                {"traffic", traffic_of_step() / seconds},
+                {"seconds_to_start", seconds_to_start_},
+                {"parts",
+                 {{"map", map / all},
+                  {"exchange", exchange / all},
+                  {"collide_stream", sweep / all},
+                  {"loads", loads / all},
+                  {"films", films / all}}}};
+    }
+
+private:
+    void step()
+    {
+        if (run_.moving) {
+            const double direction = steps_ / kStepsBetweenTurns % 2 ? -1 : 1;
+            for (Solid& s : solids_)
+                for (int d = 0; d < 3; ++d) s.position[d] += direction * s.velocity[d];
+            fluid_.place_solids(solids_);
+        }
+        fluid_.step();
+        if (run_.moving) fluid_.film_loads(solids_, fluid_.dt());
+        ++steps_;
+    }
+
+    Run run_;
+    double begin_;
+    Fluid fluid_;
+    std::vector<Solid> solids_;
+    double seconds_to_start_ = 0;
+    StepTimes before_;
+    int steps_ = 0, steps_of_slice_ = 1;
+};
+
+double median(std::vector<double> values)
+{
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/**
+ * A machine's memory and clock wander, so slices of the triad, of what the case is compared with, and of the case take turns: ratios of neighbours are
+ * right even so.
+ */
+nlohmann::json measure(const BandwidthMeter& meter, Bench* reference, Bench& bench, double seconds)
+{
+    std::vector<double> times, ratios, shares;
+    const double begin = now();
+    while (now() - begin < seconds || times.size() < 4) {
+        const double triad = meter.triad_now();
+        const double before = reference ? reference->slice() : 0;
+        times.push_back(bench.slice());
+        if (reference) ratios.push_back(before / times.back() * bench.cells() / reference->cells());
+        shares.push_back(bench.traffic_of_step() / times.back() / triad);
+    }
+    nlohmann::json result = bench.result(median(times));
+    result["share"] = median(shares);
+    if (reference) {
+        result["ratio"] = median(ratios);
+        result["ratio_to"] = {{"case", reference->run().name}, {"threads", reference->run().threads}};
+    }
+    return result;
 }
 
 nlohmann::json in_json(const Bandwidth& b) { return {{"copy", b.copy}, {"triad", b.triad}, {"in_place", b.in_place}}; }
@@ -166,21 +238,30 @@ std::string formatted(const char* format, Value... value)
     return text;
 }
 
-std::vector<Run> runs(const BenchOptions& o, int threads)
+/// With solids; first in line is the fluid alone.
+std::vector<Run> runs(const BenchOptions& o, const std::string& storage, int cells, int threads)
 {
     std::vector<Run> all;
-    for (const std::string& storage : o.storages)
-        for (const int cells : o.cells)
-            for (const std::string& name : o.cases) {
-                if (name == "fluid") {
-                    all.push_back({name, storage, cells, threads, 0, 0, false});
-                    continue;
-                }
-                const double solid_fraction = name == "bed" ? 0.6 : name == "suspension" ? 0.3 : 0.02;
-                for (const double diameter : o.diameters)
-                    all.push_back({name, storage, cells, threads, diameter, solid_fraction, name != "bed"});
-            }
+    for (const std::string& name : o.cases) {
+        if (name == "fluid") continue;
+        const double solid_fraction = name == "bed" ? 0.6 : name == "suspension" ? 0.3 : 0.02;
+        for (const double diameter : o.diameters)
+            all.push_back({name, storage, cells, threads, diameter, solid_fraction, name != "bed"});
+    }
     return all;
+}
+
+std::string line_of(const nlohmann::json& result)
+{
+    const auto number = [&](const char* key) { return result[key].get<double>(); };
+    const auto percent = [&](const char* key) { return 100 * result["parts"][key].get<double>(); };
+    const std::string ratio = result.contains("ratio") ? formatted("%5.0f%%", 100 * number("ratio")) : "      ";
+    return formatted(
+        "%-12s %5d %-7s %5.1f %6.1f %8.2f %7.1f %5.0f%% %s  %3.0f%% %3.0f%% %4.0f%% %4.0f%% %4.0f%% %5.2f s",
+        result["case"].get<std::string>().c_str(), result["cells"].get<int>(),
+        result["storage"].get<std::string>().c_str(), number("diameter"), number("mlups"),
+        number("nanoseconds_per_cell"), number("bytes_per_cell"), 100 * number("share"), ratio.c_str(), percent("map"),
+        percent("exchange"), percent("collide_stream"), percent("loads"), percent("films"), number("seconds_to_start"));
 }
 
 }  // namespace
@@ -210,26 +291,37 @@ BenchOptions read_bench_options(const std::vector<std::string>& arguments)
 
 nlohmann::json run_bench(const BenchOptions& options, const std::function<void(const std::string&)>& line)
 {
+    const bool has_fluid = std::find(options.cases.begin(), options.cases.end(), "fluid") != options.cases.end();
     nlohmann::json json;
     for (const int threads : options.threads) {
         nlohmann::json part;
-        const Bandwidth before = measure_bandwidth(threads);
+        const BandwidthMeter meter(threads);
+        const Bandwidth before = meter.best();
         line(formatted("%d thread(s): copy %.1f, triad %.1f, in place %.1f GB/s", threads, before.copy / 1e9,
                        before.triad / 1e9, before.in_place / 1e9));
-        line("case         cells storage     d  MLUPS  ns/cell  B/cell  share   map exch sweep loads  ready");
-        for (const Run& run : runs(options, threads)) {
-            nlohmann::json result = measure(run, options.seconds);
-            result["share"] = result["traffic"].get<double>() / before.triad;
-            const auto number = [&](const char* key) { return result[key].get<double>(); };
-            const auto percent = [&](const char* key) { return 100 * result["parts"][key].get<double>(); };
-            line(formatted("%-12s %5d %-7s %5.1f %6.1f %8.2f %7.1f %5.0f%% %4.0f%% %3.0f%% %4.0f%% %4.0f%% %5.2f s",
-                           run.name.c_str(), run.cells, run.storage.c_str(), number("diameter"), number("mlups"),
-                           number("nanoseconds_per_cell"), number("bytes_per_cell"), 100 * number("share"),
-                           percent("map"), percent("exchange"), percent("collide_stream"), percent("loads"),
-                           number("seconds_to_start")));
-            part["runs"].push_back(result);
-        }
-        const Bandwidth after = measure_bandwidth(threads);
+        line("case         cells storage     d  MLUPS  ns/cell  B/cell  share  ratio   map exch sweep loads films  "
+             "ready");
+        const auto add = [&](Bench* reference, Bench& bench) {
+            part["runs"].push_back(measure(meter, reference, bench, options.seconds));
+            line(line_of(part["runs"].back()));
+        };
+        for (const std::string& storage : options.storages)
+            for (const int cells : options.cells) {
+                std::unique_ptr<Bench> fluid;
+                if (has_fluid) {
+                    fluid = std::make_unique<Bench>(Run{"fluid", storage, cells, threads, 0, 0, false});
+                    std::unique_ptr<Bench> with_fewer;
+                    if (threads != options.threads.front())
+                        with_fewer =
+                            std::make_unique<Bench>(Run{"fluid", storage, cells, options.threads.front(), 0, 0, false});
+                    add(with_fewer.get(), *fluid);
+                }
+                for (const Run& run : runs(options, storage, cells, threads)) {
+                    Bench bench(run);
+                    add(fluid.get(), bench);
+                }
+            }
+        const Bandwidth after = meter.best();
         line(formatted("after: copy %.1f, triad %.1f, in place %.1f GB/s", after.copy / 1e9, after.triad / 1e9,
                        after.in_place / 1e9));
         part["threads"] = threads;
