@@ -67,7 +67,8 @@ class Collision : public CppUnit::TestFixture {
                 lopsided(f);
                 const auto before = moments<D3Q19>(f);
                 Exchange<double> out;
-                collide_saturated<D3Q19, true>(f, p, {epsilon, 3 * epsilon, {0.02, 0.0, -0.01}}, out);
+                collide_saturated<D3Q19, true>(f, p, cut_cell<double>(p, {epsilon, 3 * epsilon, {0.02, 0.0, -0.01}}),
+                                               out);
                 const auto after = moments<D3Q19>(f);
                 LBM_ASSERT_CLOSE(before.drho, after.drho, kRoundOff, 1.0);
                 for (int d = 0; d < 3; ++d) {
@@ -86,7 +87,7 @@ class Collision : public CppUnit::TestFixture {
             lopsided(f);
             lopsided(g);
             Exchange<double> out;
-            collide_saturated<D3Q19, true>(f, p, {0, 0, {0, 0, 0}}, out);
+            collide_saturated<D3Q19, true>(f, p, cut_cell<double>(p, {0, 0, {0, 0, 0}}), out);
             collide_fluid<D3Q19, true>(g, p);
             for (int i = 0; i < D3Q19::Q; ++i) LBM_ASSERT_CLOSE(g[i], f[i], kRoundOff, 1.0);
             for (int d = 0; d < 3; ++d) CPPUNIT_ASSERT_EQUAL(0.0, out.force[d]);
@@ -102,7 +103,8 @@ class Collision : public CppUnit::TestFixture {
             const double u_s[3] = {0.02, 0.0, -0.01}, k = 3, kLp = k * (tau - 0.5);
             const auto before = moments<D3Q19>(f);
             Exchange<double> out;
-            collide_saturated<D3Q19, true>(f, parameters(tau, 0.125), {1, k, {u_s[0], u_s[1], u_s[2]}}, out);
+            const auto p = parameters(tau, 0.125);
+            collide_saturated<D3Q19, true>(f, p, cut_cell<double>(p, {1, k, {u_s[0], u_s[1], u_s[2]}}), out);
             const double rho = 1 + before.drho, left = 0.02 / (0.02 + 0.5 * kLp);
             for (int d = 0; d < 3; ++d) {
                 const double u = 0.5 * (before.j[d] + out.momentum[d]) / rho;
@@ -123,7 +125,7 @@ class Collision : public CppUnit::TestFixture {
             f[i] = 3 * D3Q19::w(i) * (c[0] * u[0] + c[1] * u[1] + c[2] * u[2]);
         }
         Exchange<double> out;
-        collide_saturated<D3Q19, false>(f, p, {0.4, 1.2, {u[0], u[1], u[2]}}, out);
+        collide_saturated<D3Q19, false>(f, p, cut_cell<double>(p, {0.4, 1.2, {u[0], u[1], u[2]}}), out);
         for (int d = 0; d < 3; ++d) LBM_ASSERT_CLOSE(0.0, out.force[d], kRoundOff, 1.0);
     }
 
@@ -143,10 +145,10 @@ class Collision : public CppUnit::TestFixture {
             for (int d = 0; d < 3; ++d) s.u_s[d][l] = single_s[l].u_s[d];
         }
         Exchange<Pack<4>> out;
-        collide_saturated<D3Q19, true>(pack, p, s, out);
+        collide_saturated<D3Q19, true>(pack, p, cut_cell(p, s), out);
         for (int l = 0; l < 4; ++l) {
             Exchange<double> single_out;
-            collide_saturated<D3Q19, true>(single[l], p, single_s[l], single_out);
+            collide_saturated<D3Q19, true>(single[l], p, cut_cell(p, single_s[l]), single_out);
             for (int i = 0; i < D3Q19::Q; ++i) CPPUNIT_ASSERT_EQUAL(single[l][i], double(pack[i][l]));
             CPPUNIT_ASSERT_EQUAL(single_out.force[0], double(out.force[0][l]));
         }

@@ -68,7 +68,7 @@ class ComparisonSchemes : public CppUnit::TestFixture {
             expected[i] = f[i] + (1 - B) * fluid + B * solid;
         }
         Exchange<double> out;
-        collide_with_solids<L, true>(f, p, {epsilon, 0, {kU_s[0], kU_s[1], kU_s[2]}}, out);
+        collide_with_solids<L, true>(f, p, cut_cell<double>(p, {epsilon, 0, {kU_s[0], kU_s[1], kU_s[2]}}), out);
         for (int i = 0; i < L::Q; ++i) LBM_ASSERT_CLOSE(expected[i], f[i], kRoundOff, 1.0);
     }
 
@@ -89,7 +89,7 @@ class ComparisonSchemes : public CppUnit::TestFixture {
         lopsided<D3Q19>(before);
         const double rho = 1 + moments<D3Q19>(f).drho;
         Exchange<double> out;
-        collide_with_solids<D3Q19, true>(f, p, {0.6, 0, {kU_s[0], kU_s[1], kU_s[2]}}, out);
+        collide_with_solids<D3Q19, true>(f, p, cut_cell<double>(p, {0.6, 0, {kU_s[0], kU_s[1], kU_s[2]}}), out);
         for (int i = 0; i < D3Q19::Q; ++i) {
             const auto& c = D3Q19::c[i];
             const double cu = c[0] * kU_s[0] + c[1] * kU_s[1] + c[2] * kU_s[2];
@@ -107,7 +107,8 @@ class ComparisonSchemes : public CppUnit::TestFixture {
                 lopsided<D3Q19>(f);
                 const auto before = moments<D3Q19>(f);
                 Exchange<double> out;
-                collide_with_solids<D3Q19, true>(f, p, {epsilon, 0, {kU_s[0], kU_s[1], kU_s[2]}}, out);
+                collide_with_solids<D3Q19, true>(f, p, cut_cell<double>(p, {epsilon, 0, {kU_s[0], kU_s[1], kU_s[2]}}),
+                                                 out);
                 const auto after = moments<D3Q19>(f);
                 LBM_ASSERT_CLOSE(before.drho, after.drho, kRoundOff, 1.0);
                 for (int d = 0; d < 3; ++d) {
@@ -126,7 +127,7 @@ class ComparisonSchemes : public CppUnit::TestFixture {
             lopsided<D3Q27>(f);
             lopsided<D3Q27>(g);
             Exchange<double> out;
-            collide_with_solids<D3Q27, true>(f, p, {0, 0, {kU_s[0], kU_s[1], kU_s[2]}}, out);
+            collide_with_solids<D3Q27, true>(f, p, cut_cell<double>(p, {0, 0, {kU_s[0], kU_s[1], kU_s[2]}}), out);
             collide_fluid<D3Q27, true>(g, p);
             for (int i = 0; i < D3Q27::Q; ++i) LBM_ASSERT_CLOSE(g[i], f[i], kRoundOff, 1.0);
         }
@@ -135,7 +136,7 @@ class ComparisonSchemes : public CppUnit::TestFixture {
     void wall_cells_bounce_and_their_neighbours_do_not()
     {
         const CollisionParameters exact = parameters(Scheme::exact, 1e-5);
-        const Saturation<double> s{0.4, 1.2, {kU_s[0], kU_s[1], kU_s[2]}};
+        const auto s = cut_cell<double>(exact, {0.4, 1.2, {kU_s[0], kU_s[1], kU_s[2]}});
         for (const double bounce : {0.0, 1.0}) {
             double f[D3Q19::Q], g[D3Q19::Q];
             lopsided<D3Q19>(f);
@@ -145,7 +146,8 @@ class ComparisonSchemes : public CppUnit::TestFixture {
             if (bounce == 0) collide_saturated<D3Q19, true>(g, exact, s, expected);
             else
                 collide_with_solids<D3Q19, true>(g, parameters(Scheme::bounce_back, 1e-5),
-                                                 {1, 0, {kU_s[0], kU_s[1], kU_s[2]}}, expected);
+                                                 cut_cell<double>(exact, {1, 0, {kU_s[0], kU_s[1], kU_s[2]}}),
+                                                 expected);
             for (int i = 0; i < D3Q19::Q; ++i) LBM_ASSERT_CLOSE(g[i], f[i], kRoundOff, 1.0);
             for (int d = 0; d < 3; ++d) LBM_ASSERT_CLOSE(expected.force[d], out.force[d], kRoundOff, 1.0);
         }

@@ -55,7 +55,8 @@ struct Layout {
     {
         // The right ghost of a line and the left one of the next share the padding.
         const Slot per_line = static_cast<Slot>(kCacheLine / slot_bytes);
-        line = (n[0] + 2 + per_line - 1) / per_line * per_line;
+        // An odd number of cache lines: Q lines side by side at a power of 2 would meet in few places of a cache.
+        line = ((n[0] + 2 + per_line - 1) / per_line | 1) * per_line;
         row = line * L::Q;
         plane = row * (n[1] + 2);
         origin = per_line + row + plane;

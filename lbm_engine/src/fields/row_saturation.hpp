@@ -16,18 +16,20 @@ inline constexpr int kBlock = 8;
 constexpr std::size_t padded_to_blocks(std::size_t n) { return (n + kBlock - 1) / kBlock * kBlock; }
 
 /**
- * One row of cells as the solids see it: sums of what they say to the cells, and what the cells answer, per fraction: a solid takes eps_i times that.
- * One per thread. Only covered blocks mean anything; outside the solids their input is zero.
+ * One row of cells as the solids see it: sums of what they say to the cells, then what the collision makes of that, then what the cells answer. One per
+ * thread. Only covered blocks mean anything; outside the solids their input is zero. Where all solids are fixed, columns of velocities and weights are not used.
  */
 struct RowSaturation {
     enum Column {
-        kFraction,                ///< sum of the solids' fractions; above 1 where they overlap
-        kStrength,                ///< sum k eps
-        kUs,                      ///< sum eps u_s
-        kBounce = kUs + 3,        ///< 1 in cells of solids that turn populations round; in blocks that are kWall
-        kForce,                   ///< F_s / sum eps
-        kMomentum = kForce + 3,   ///< eps j_post / sum eps
-        kWeight = kMomentum + 3,  ///< (1 - eps) kk rho / sum eps
+        kFraction,               ///< sum of the solids' fractions, above 1 where they overlap; then that of their union
+        kStrength,               ///< sum k eps; then kk
+        kUs,                     ///< sum eps u_s; then their mean velocity
+        kBounce = kUs + 3,       ///< 1 in cells of solids that turn populations round; in blocks that are kWall
+        kOmegaMinus,             ///< omega-_c
+        kShare,                  ///< 1 / sum eps: a solid takes eps_i times that of the answers
+        kForce,                  ///< F_s
+        kMomentum = kForce + 3,  ///< eps j_post
+        kWeight = kMomentum + 3,  ///< (1 - eps) kk rho
         kColumns
     };
 
@@ -47,13 +49,14 @@ struct RowSaturation {
     std::size_t stride;
     std::vector<double> values;
     std::vector<std::uint8_t> covered;  ///< per block: a Cover
+    bool fixed = false;                 ///< all solids are at rest, and nobody asks for the weight
 };
 
-/// The saturation of cells, and what their answers are divided by.
+/// The saturation of cells, and what a solid takes of their answers.
 template <class V>
 struct Mixture {
     Saturation<V> saturation;
-    V per_fraction;  ///< 1 / sum eps; 1 without solids
+    V share;  ///< 1 / sum eps; 1 without solids
 };
 
 /**
@@ -65,13 +68,11 @@ template <class V>
                                                  bool whole_cells)
 {
     const V one = V{} + 1.0, zero = V{};
-    const V per_fraction = one / (fraction > 0 ? fraction : one);
+    const V share = one / (fraction > 0 ? fraction : one);
     const V filled = fraction < 1 ? fraction : one;
     const V whole = filled >= 0.5 ? one : zero;
-    return {{whole_cells ? whole : filled,
-             strength * (filled * per_fraction),
-             {u[0] * per_fraction, u[1] * per_fraction, u[2] * per_fraction}},
-            per_fraction};
+    return {{whole_cells ? whole : filled, strength * (filled * share), {u[0] * share, u[1] * share, u[2] * share}},
+            share};
 }
 
 }  // namespace lbm

@@ -55,7 +55,7 @@ int units_along(int i0, int count, int n, int size)
 {
     Walk walk(i0, n, size);
     for (int i = 1; i < count; ++i) walk.next();
-    return walk.unit + 1;
+    return std::min(walk.unit + 1, (n + size - 1) / size);
 }
 
 }  // namespace
@@ -382,14 +382,14 @@ void SolidMap::for_spans(int first_plane, int end_plane, Body body) const
             for (int j = 0; j < solid.ny; ++j, y.next()) {
                 const auto n = static_cast<std::int32_t>(spans[j + 1].fractions - spans[j].fractions);
                 if (n == 0) continue;
-                const std::uint32_t sums = sums_begin_[s] + z.unit * solid.units_y + y.unit;
+                const int unit = z.unit % solid.units_z * solid.units_y + y.unit % solid.units_y;
                 body(static_cast<std::size_t>(z.cell) * n_[1] + y.cell,
                      Piece{static_cast<std::int32_t>(s),
-                           static_cast<std::int32_t>(sums),
                            spans[j].fractions,
                            spans[j].x0,
                            n,
-                           {0, static_cast<std::int8_t>(y.image), static_cast<std::int8_t>(z.image)}});
+                           {0, static_cast<std::int8_t>(y.image), static_cast<std::int8_t>(z.image)},
+                           static_cast<std::uint8_t>(unit)});
             }
         }
     }
@@ -445,13 +445,18 @@ void SolidMap::scale_velocities(double s)
 void SolidMap::tell_rows()
 {
     row_solids_.resize(solids_.size());
+    all_fixed_ = std::all_of(solids_.begin(), solids_.end(), [](const MappedSolid& m) { return m.solid.fixed; });
     const auto count = static_cast<std::ptrdiff_t>(solids_.size());
 #pragma omp parallel for schedule(static) if (count > 256)
     for (std::ptrdiff_t s = 0; s < count; ++s) {
         const MappedSolid& m = solids_[s];
-        row_solids_[s] = {m.solid.geometry.centre,  m.solid.velocity,
-                          m.solid.angular_velocity, m.k,
-                          m.fractions.data(),       m.bounce.empty() ? nullptr : m.bounce.data()};
+        row_solids_[s] = {m.solid.geometry.centre,
+                          m.solid.velocity,
+                          m.solid.angular_velocity,
+                          m.k,
+                          sums_begin_[s],
+                          m.fractions.data(),
+                          m.bounce.empty() ? nullptr : m.bounce.data()};
     }
 }
 

@@ -120,7 +120,7 @@ private:
         LatticeSolid solid;
         double k = 0, volume = 0, filled = 0;
         int y0 = 0, ny = 0, z0 = 0, nz = 0;  // rows, not wrapped
-        int units_y = 0, units_z = 0;        // of rows, that they lie in
+        int units_y = 0, units_z = 0;        // of rows, that they lie in; at most all
         std::vector<NearSphere> near;        // that leave a narrow gap
         std::vector<Span> spans;             // ny * nz, and an end
         std::vector<double> fractions;       // a block of padding before and after those of the spans
@@ -162,6 +162,7 @@ private:
     std::vector<SolidFraction> fractions_;       // for each thread
     std::vector<std::vector<NearSphere>> near_;  // the same
     std::vector<RowSolid> row_solids_;
+    bool all_fixed_ = false;
     std::vector<std::uint32_t> row_begin_;  // (ny * nz + 1)
     std::vector<std::uint32_t> row_next_;   // while sorting
     std::vector<Piece> pieces_;

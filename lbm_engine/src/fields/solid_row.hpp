@@ -11,17 +11,19 @@ namespace lbm {
 struct RowSolid {
     Vec3 centre, velocity, angular_velocity;
     double k;                    ///< of its strength
+    std::uint32_t sums;          ///< the first of its own
     const double* fractions;     ///< of its cells
     const std::uint8_t* bounce;  ///< which of them turn populations round, or null
 };
 
 /// Cells side by side in a row that a solid touches.
 struct Piece {
-    std::int32_t solid, sums;
+    std::int32_t solid;
     std::uint32_t
         fractions;  ///< of the first cell among those of the solid; a block more may be read before and after the piece
     std::int32_t x0, n;
     std::int8_t image[3];  ///< of the lattice in which these cells lie as the solid's centre sees it
+    std::uint8_t unit;     ///< of rows, among those that the solid lies in: which of its sums
 };
 
 /**
@@ -37,6 +39,7 @@ struct PiecesOfRow {
     const RowSolid* solids;
     std::array<int, 3> n;  ///< cells of the lattice
     int y, z;              ///< of the row
+    bool fixed;            ///< all solids of the lattice are at rest, and not free to move
 };
 
 struct SolidRowKernels {

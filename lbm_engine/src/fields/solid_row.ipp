@@ -67,9 +67,8 @@ void bounce(RowSaturation& cells, int x0, int n, const std::uint8_t* bounces)
             row.z + piece.image[2] * row.n[2] + 0.5 - X[2]};
 }
 
-}  // namespace
-
-void saturate(const PiecesOfRow& row, RowSaturation& cells) noexcept
+template <bool fixed>
+[[gnu::always_inline]] inline void saturate_row(const PiecesOfRow& row, RowSaturation& cells)
 {
     using C = RowSaturation;
     double* const columns = cells.column(C::kFraction);
@@ -83,13 +82,19 @@ void saturate(const PiecesOfRow& row, RowSaturation& cells) noexcept
                       U[2] + W[0] * r[1] - W[1] * r[0]};
         const auto say = [&](int block, const Cells& e, const Cells& at) __attribute__((always_inline))
         {
-            const Cells terms[] = {e, solid.k * e, e * u0[0], e * (u0[1] + W[2] * at), e * (u0[2] - W[1] * at)};
-            double* column = columns + block * kBlock;
             const bool first = cells.covered[block] == C::kFluid;
             cells.covered[block] = std::max<std::uint8_t>(cells.covered[block], C::kSolids);
-            for (const Cells& term : terms) {
-                store<kBlock>(column, first ? term : load<kBlock>(column) + term);
-                column += cells.stride;
+            const auto tell = [&](int column, const Cells& term) __attribute__((always_inline))
+            {
+                double* const sum = columns + column * cells.stride + block * kBlock;
+                store<kBlock>(sum, first ? term : load<kBlock>(sum) + term);
+            };
+            tell(C::kFraction, e);
+            tell(C::kStrength, solid.k * e);
+            if constexpr (!fixed) {
+                tell(C::kUs, e * u0[0]);
+                tell(C::kUs + 1, e * (u0[1] + W[2] * at));
+                tell(C::kUs + 2, e * (u0[2] - W[1] * at));
             }
         };
         for_blocks(piece.x0, piece.n, solid.fractions + piece.fractions, say);
@@ -97,10 +102,12 @@ void saturate(const PiecesOfRow& row, RowSaturation& cells) noexcept
     }
 }
 
-void collect(const PiecesOfRow& row, const RowSaturation& cells, PieceSums* sums_of_pieces) noexcept
+template <bool fixed>
+[[gnu::always_inline]] inline void collect_row(const PiecesOfRow& row, const RowSaturation& cells,
+                                               PieceSums* sums_of_pieces)
 {
     using C = RowSaturation;
-    const double* const columns = cells.column(C::kForce);
+    const double* const columns = cells.column(0);
     for (const Piece* p = row.begin; p != row.end; ++p) {
         const Piece& piece = *p;
         const RowSolid& solid = row.solids[piece.solid];
@@ -111,33 +118,51 @@ void collect(const PiecesOfRow& row, const RowSaturation& cells, PieceSums* sums
         {
             const auto in = [&](int column) __attribute__((always_inline))
             {
-                return load<kBlock>(columns + (column - C::kForce) * cells.stride + block * kBlock);
+                return load<kBlock>(columns + column * cells.stride + block * kBlock);
             };
-            const Cells rx = r[0] + at;
+            const Cells rx = r[0] + at, share = e * in(C::kShare);
 #pragma GCC unroll 3
             for (int d = 0; d < 3; ++d) {
-                const Cells f = e * in(C::kForce + d);
+                const Cells f = share * in(C::kForce + d);
                 F[d] += f;
                 xF[d] += rx * f;
             }
-            const Cells py = e * in(C::kMomentum + 1), pz = e * in(C::kMomentum + 2), w = e * in(C::kWeight);
-            P[0] += e * in(C::kMomentum);
+            const Cells py = share * in(C::kMomentum + 1), pz = share * in(C::kMomentum + 2);
+            P[0] += share * in(C::kMomentum);
             P[1] += py;
             P[2] += pz;
             xPy += rx * py;
             xPz += rx * pz;
-            b += w;
-            br2 += w * (rx * rx + ryz2);
+            if constexpr (!fixed) {
+                const Cells w = share * in(C::kWeight);
+                b += w;
+                br2 += w * (rx * rx + ryz2);
+            }
         };
         for_blocks(piece.x0, piece.n, solid.fractions + piece.fractions, hear);
         const Cells plain = sums_over_lanes({F[0], F[1], F[2], P[0], P[1], P[2], b, br2});
         const Cells x = sums_over_lanes({xF[0], xF[1], xF[2], xPy, xPz, Cells{}, Cells{}, Cells{}});
-        PieceSums& sums = sums_of_pieces[piece.sums];
+        PieceSums& sums = sums_of_pieces[solid.sums + piece.unit];
         add(sums.plain, plain);
         add(sums.x, x);
         add(sums.y, r[1] * plain);
         add(sums.z, r[2] * plain);
     }
+}
+
+}  // namespace
+
+void saturate(const PiecesOfRow& row, RowSaturation& cells) noexcept
+{
+    cells.fixed = row.fixed;
+    if (row.fixed) saturate_row<true>(row, cells);
+    else saturate_row<false>(row, cells);
+}
+
+void collect(const PiecesOfRow& row, const RowSaturation& cells, PieceSums* sums) noexcept
+{
+    if (row.fixed) collect_row<true>(row, cells, sums);
+    else collect_row<false>(row, cells, sums);
 }
 
 }  // namespace lbm::LBM_ISA

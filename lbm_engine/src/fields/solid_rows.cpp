@@ -7,7 +7,7 @@ namespace lbm {
 PiecesOfRow SolidMap::pieces(std::size_t row) const noexcept
 {
     return {pieces_.data() + row_begin_[row], pieces_.data() + row_begin_[row + 1], row_solids_.data(), n_,
-            static_cast<int>(row % n_[1]),    static_cast<int>(row / n_[1])};
+            static_cast<int>(row % n_[1]),    static_cast<int>(row / n_[1]),        all_fixed_};
 }
 
 void SolidMap::prefetch(std::size_t row) const noexcept

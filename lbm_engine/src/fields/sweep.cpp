@@ -65,9 +65,9 @@ void sum_inside(const Populations<L, T>& populations, const CollisionParameters&
             std::fill(cells.column(RowSaturation::kForce), cells.column(RowSaturation::kColumns), 0.0);
             const auto answer = [&](const CellState& cell) {
                 const double fraction = cells.column(RowSaturation::kFraction)[cell.x];
-                const double filled = fraction > 0 ? cell.epsilon / fraction : 0;
+                cells.column(RowSaturation::kShare)[cell.x] = fraction > 0 ? 1 / fraction : 0;
                 for (int d = 0; d < 3; ++d)
-                    cells.column(RowSaturation::kMomentum + d)[cell.x] = filled * (cell.*momentum)[d];
+                    cells.column(RowSaturation::kMomentum + d)[cell.x] = cell.epsilon * (cell.*momentum)[d];
             };
             read_row(populations, p, inertia, y, z, cells, answer);
             solids.collect(row, cells);

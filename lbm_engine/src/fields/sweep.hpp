@@ -49,9 +49,10 @@ void read_row(const Populations<L, T>& populations, const CollisionParameters& p
         using C = RowSaturation;
         const auto cover = cells.covered[x / kBlock];
         const auto in = [&](int column) { return cover == C::kFluid ? 0 : cells.column(column)[x]; };
-        const double u[3] = {in(C::kUs), in(C::kUs + 1), in(C::kUs + 2)};
-        const Saturation<double> s =
-            mixture(in(C::kFraction), in(C::kStrength), u, p.scheme == Scheme::bounce_back).saturation;
+        const auto velocity = [&](int d) { return cells.fixed ? 0 : in(C::kUs + d); };
+        const double u[3] = {velocity(0), velocity(1), velocity(2)};
+        const CutCell<double> s =
+            cut_cell(p, mixture(in(C::kFraction), in(C::kStrength), u, p.scheme == Scheme::bounce_back).saturation);
         Exchange<double> answer;
         const double bounce = cover == C::kWall ? in(C::kBounce) : 0;
         if (inertia) collide_beside_wall<L, true>(f, p, s, bounce, answer);

@@ -39,43 +39,58 @@ template <class L, class V, class T>
     for (int i = 0; i < L::Q; ++i) store<sizeof(V) / sizeof(double)>(p[L::opposite(i)] + x, f[i]);
 }
 
-template <class L, bool inertia, int W, class T>
-[[gnu::always_inline]] inline void sweep_fluid(T* const (&p)[L::Q], int x, Slot ahead,
-                                               const CollisionParameters& parameters, WatchPack<W>& watch)
-{
-    Pack<W> f[L::Q];
-    load_all<L>(p, x, ahead, f);
-    watch.see(collide_fluid<L, inertia>(f, parameters));
-    store_all<L>(p, x, f);
-}
+/// How the cells of a block collide.
+enum class Kind { fluid, cut, cut_by_fixed, any };
 
-template <class L, bool inertia, int W, class T>
-[[gnu::always_inline]] inline void sweep_saturated(T* const (&p)[L::Q], int x, Slot ahead,
-                                                   const CollisionParameters& parameters, RowSaturation& cells,
-                                                   WatchPack<W>& watch)
+/// From the sums of what the solids say to some cells to what their collision needs.
+template <Kind kind, int W>
+[[gnu::always_inline]] inline void weigh(const CollisionParameters& parameters, RowSaturation& cells, int x)
 {
-    Pack<W> f[L::Q];
-    load_all<L>(p, x, ahead, f);
-    const auto read = [&](int column) __attribute__((always_inline)) { return load<W>(cells.column(column) + x); };
-    const auto write = [&](int column, const Pack<W>& v) __attribute__((always_inline))
-    {
-        store<W>(cells.column(column) + x, v);
-    };
     using C = RowSaturation;
-    const Pack<W> u[3] = {read(C::kUs), read(C::kUs + 1), read(C::kUs + 2)};
+    const auto at = [&](int column) __attribute__((always_inline)) { return cells.column(column) + x; };
+    const auto read = [&](int column) __attribute__((always_inline)) { return load<W>(at(column)); };
+    Pack<W> u[3]{};
+    if (kind == Kind::cut || !cells.fixed)
+        for (int d = 0; d < 3; ++d) u[d] = read(C::kUs + d);
     const Mixture<Pack<W>> solids =
         mixture(read(C::kFraction), read(C::kStrength), u, parameters.scheme == Scheme::bounce_back);
-    const Saturation<Pack<W>>& saturation = solids.saturation;
-    Exchange<Pack<W>> answer;
-    if (cells.covered[x / kBlock] == C::kWall)
-        watch.see(collide_beside_wall<L, inertia>(f, parameters, saturation, read(C::kBounce), answer));
-    else watch.see(collide_with_solids<L, inertia>(f, parameters, saturation, answer));
-    const Pack<W> filled = solids.per_fraction * saturation.epsilon;
-    for (int d = 0; d < 3; ++d) {
-        write(C::kForce + d, solids.per_fraction * answer.force[d]);
-        write(C::kMomentum + d, filled * answer.momentum[d]);
+    const CutCell<Pack<W>> cell = cut_cell(parameters, solids.saturation);
+    store<W>(at(C::kFraction), cell.epsilon);
+    store<W>(at(C::kStrength), cell.kk);
+    if constexpr (kind != Kind::cut_by_fixed)
+        for (int d = 0; d < 3; ++d) store<W>(at(C::kUs + d), cell.u_s[d]);
+    store<W>(at(C::kOmegaMinus), cell.omega_minus);
+    store<W>(at(C::kShare), solids.share);
+}
+
+template <class L, bool inertia, Kind kind, int W, class T>
+[[gnu::always_inline]] inline void sweep_cells(T* const (&p)[L::Q], int x, Slot ahead,
+                                               const CollisionParameters& parameters, RowSaturation* row,
+                                               WatchPack<W>& watch)
+{
+    Pack<W> f[L::Q];
+    load_all<L>(p, x, ahead, f);
+    if constexpr (kind == Kind::fluid) watch.see(collide_fluid<L, inertia>(f, parameters));
+    else {
+        using C = RowSaturation;
+        const auto at = [&](int column) __attribute__((always_inline)) { return row->column(column) + x; };
+        const auto read = [&](int column) __attribute__((always_inline)) { return load<W>(at(column)); };
+        CutCell<Pack<W>> cell{read(C::kFraction), read(C::kStrength), read(C::kOmegaMinus), {}};
+        if constexpr (kind != Kind::cut_by_fixed)
+            for (int d = 0; d < 3; ++d) cell.u_s[d] = read(C::kUs + d);
+        Exchange<Pack<W>> answer;
+        if constexpr (kind == Kind::cut) watch.see(collide_saturated<L, inertia>(f, parameters, cell, answer));
+        else if constexpr (kind == Kind::cut_by_fixed)
+            watch.see(collide_saturated<L, inertia, true>(f, parameters, cell, answer));
+        else if (row->covered[x / kBlock] == C::kWall)
+            watch.see(collide_beside_wall<L, inertia>(f, parameters, cell, read(C::kBounce), answer));
+        else watch.see(collide_with_solids<L, inertia>(f, parameters, cell, answer));
+        for (int d = 0; d < 3; ++d) {
+            store<W>(at(C::kForce + d), answer.force[d]);
+            store<W>(at(C::kMomentum + d), cell.epsilon * answer.momentum[d]);
+        }
+        if constexpr (kind != Kind::cut_by_fixed) store<W>(at(C::kWeight), (1 - cell.epsilon) * answer.weight);
     }
-    write(C::kWeight, (1 - saturation.epsilon) * solids.per_fraction * answer.weight);
     store_all<L>(p, x, f);
 }
 
@@ -86,24 +101,56 @@ void note(const V& pack, int lanes, FlowWatch& watch)
     for (int l = 0; l < lanes; ++l) watch.see({lane(pack.max2, l), lane(pack.sum2, l), lane(pack.drho2, l)});
 }
 
-/// Cells from x to end, W at a time as long as they last, then fewer at a time.
-template <class L, bool inertia, int W, class T>
-[[gnu::always_inline]] inline void sweep_cells(T* const (&p)[L::Q], int x, int end, Slot ahead,
-                                               const CollisionParameters& parameters, RowSaturation* cells,
-                                               FlowWatch& watch)
+/// Neighbouring blocks of a row. One function for each kind of cells, because registers are few.
+template <class L, bool inertia, Kind kind, int W, class T>
+[[gnu::noinline]] void sweep_blocks(T* const (&p)[L::Q], int begin, int end, Slot ahead,
+                                    const CollisionParameters& parameters, RowSaturation& row, WatchPack<W>& watch)
+{
+    if constexpr (kind != Kind::fluid)
+        for (int x = begin * kBlock; x < end * kBlock; x += W) weigh<kind, W>(parameters, row, x);
+    WatchPack<W> seen = watch;
+    for (int x = begin * kBlock; x < end * kBlock; x += W)
+        sweep_cells<L, inertia, kind, W>(p, x, ahead, parameters, &row, seen);
+    watch = seen;
+}
+
+/// Less than a block at the end of a row, W cells at a time as long as they last, then fewer.
+template <class L, bool inertia, Kind kind, int W, class T>
+[[gnu::noinline]] void sweep_rest(T* const (&p)[L::Q], int x, int end, Slot ahead,
+                                  const CollisionParameters& parameters, RowSaturation* row, FlowWatch& watch)
 {
     WatchPack<W> pack;
-    if (!cells) {
-        for (; x + W <= end; x += W) sweep_fluid<L, inertia, W>(p, x, ahead, parameters, pack);
-    } else {
-        for (; x + W <= end; x += W) {
-            if (cells->covered[x / kBlock]) sweep_saturated<L, inertia, W>(p, x, ahead, parameters, *cells, pack);
-            else sweep_fluid<L, inertia, W>(p, x, ahead, parameters, pack);
-        }
-    }
+    for (; x + W <= end; x += W) sweep_cells<L, inertia, kind, W>(p, x, ahead, parameters, row, pack);
     note(pack, W, watch);
     if constexpr (W > 1)
-        if (x < end) sweep_cells<L, inertia, W / 2>(p, x, end, ahead, parameters, cells, watch);
+        if (x < end) sweep_rest<L, inertia, kind, W / 2>(p, x, end, ahead, parameters, row, watch);
+}
+
+/// A row with solids, whose cells are of one kind.
+template <class L, bool inertia, Kind kind, class T>
+[[gnu::always_inline]] inline void sweep_solid_row(T* const (&p)[L::Q], int nx, Slot ahead,
+                                                   const CollisionParameters& parameters, RowSaturation& row,
+                                                   FlowWatch& watch)
+{
+    constexpr int W = LBM_LANES;
+    const int whole = nx / kBlock;
+    const auto is_covered = [&](int block) { return row.covered[block] != RowSaturation::kFluid; };
+    WatchPack<W> pack;
+    for (int begin = 0, end = 0; begin < whole; begin = end) {
+        const bool covered = is_covered(begin);
+        do ++end;
+        while (end < whole && is_covered(end) == covered);
+        if (covered) sweep_blocks<L, inertia, kind, W>(p, begin, end, ahead, parameters, row, pack);
+        else sweep_blocks<L, inertia, Kind::fluid, W>(p, begin, end, ahead, parameters, row, pack);
+    }
+    note(pack, W, watch);
+    if (whole * kBlock == nx) return;
+    if (is_covered(whole)) {
+        for (int x = 0; x < kBlock; x += W) weigh<kind, W>(parameters, row, whole * kBlock + x);
+        sweep_rest<L, inertia, kind, W>(p, whole * kBlock, nx, ahead, parameters, &row, watch);
+    } else {
+        sweep_rest<L, inertia, Kind::fluid, W>(p, whole * kBlock, nx, ahead, parameters, &row, watch);
+    }
 }
 
 }  // namespace
@@ -114,8 +161,17 @@ void sweep_row(T* f, const Slot (&slot)[L::Q], int nx, Slot ahead, const Collisi
 {
     T* p[L::Q];
     for (int i = 0; i < L::Q; ++i) p[i] = f + slot[i];
-    const CollisionParameters local = parameters;
-    sweep_cells<L, inertia, LBM_LANES>(p, 0, nx, ahead, local, cells, watch);
+    constexpr int W = LBM_LANES;
+    if (!cells) {
+        sweep_rest<L, inertia, Kind::fluid, W>(p, 0, nx, ahead, parameters, nullptr, watch);
+        return;
+    }
+    const bool wall =
+        std::find(cells->covered.begin(), cells->covered.end(), RowSaturation::kWall) != cells->covered.end();
+    if (wall || parameters.scheme != Scheme::exact)
+        sweep_solid_row<L, inertia, Kind::any>(p, nx, ahead, parameters, *cells, watch);
+    else if (cells->fixed) sweep_solid_row<L, inertia, Kind::cut_by_fixed>(p, nx, ahead, parameters, *cells, watch);
+    else sweep_solid_row<L, inertia, Kind::cut>(p, nx, ahead, parameters, *cells, watch);
 }
 
 #define LBM_SWEEP_ROW(L, inertia, T)                                                                                   \

@@ -65,58 +65,74 @@ template <class L, class V>
 [[gnu::always_inline]] inline Moments<V> moments(const V (&f)[L::Q])
 {
     Moments<V> m{f[0], {V{}, V{}, V{}}};
+    V sums[3]{};  // side by side: one long chain of additions would be waited for
     detail::for_pairs<L>([&]<int a, int b>() __attribute__((always_inline)) {
-        m.drho += f[a] + f[b];
+        sums[a / 2 % 3] += f[a] + f[b];
         const V difference = f[a] - f[b];
         for (int d = 0; d < 3; ++d) {
             if (L::c[a][d] > 0) m.j[d] += difference;
             if (L::c[a][d] < 0) m.j[d] -= difference;
         }
     });
+    m.drho += sums[0] + sums[1] + sums[2];
     return m;
 }
 
+/// The sources of a relaxation. With rho u and E, the even ones are w (even_0 + (c.rho u) (c.E) / rho) in population i, the odd ones w c.odd.
+template <class V>
+struct Sources {
+    V even_0, inverse_rho, rho_u[3], E[3], odd[3];
+};
+
 /**
- * TRT relaxation with the equilibria and sources already gathered into a few cell values:
+ * TRT relaxation:
  *
- *     f+ <- (1 - omega+) f+  + w (even_0 + (c.u) (c.even_2))
- *     f- <- (1 - omega-) f-  + w c.odd
+ *     f+ <- (1 - omega+) f+  + even sources
+ *     f- <- (1 - omega-) f-  + odd sources
  */
 template <class L, bool inertia, class V, class Rate>
-[[gnu::always_inline]] inline void relax(V (&f)[L::Q], double omega_plus, const Rate& omega_minus, const V& even_0,
-                                         const V (&u)[3], const V (&even_2)[3], const V (&odd)[3])
+[[gnu::always_inline]] inline void relax(V (&f)[L::Q], double omega_plus, const Rate& omega_minus, const Sources<V>& s)
 {
     const double keep_even = 1 - omega_plus;
     const Rate keep_odd = 1 - omega_minus;
-    f[0] = keep_even * f[0] + L::w(0) * even_0;
+    f[0] = keep_even * f[0] + L::w(0) * s.even_0;
     detail::for_pairs<L>([&]<int a, int b>() __attribute__((always_inline)) {
-        V even = even_0;
-        if constexpr (inertia) even += detail::c_dot<L, a>(u) * detail::c_dot<L, a>(even_2);
-        const V new_even = (0.5 * keep_even) * (f[a] + f[b]) + L::w(a) * even;
-        const V new_odd = (0.5 * keep_odd) * (f[a] - f[b]) + L::w(a) * detail::c_dot<L, a>(odd);
+        // Products with w are the same for many directions, and known before their sums are.
+        constexpr double w = L::w(a);
+        V even = w * s.even_0;
+        if constexpr (inertia) even += (w * s.inverse_rho) * (detail::c_dot<L, a>(s.rho_u) * detail::c_dot<L, a>(s.E));
+        const V odd[3] = {w * s.odd[0], w * s.odd[1], w * s.odd[2]};
+        const V new_even = (0.5 * keep_even) * (f[a] + f[b]) + even;
+        const V new_odd = (0.5 * keep_odd) * (f[a] - f[b]) + detail::c_dot<L, a>(odd);
         f[a] = new_even + new_odd;
         f[b] = new_even - new_odd;
     });
 }
 
 /**
- * The even sources of relax: e+ = w (drho + rho (9/2 (c.u)^2 - 3/2 u^2)) and, with total force F_t, the even Guo term
+ * The even sources: e+ = w (drho + rho (9/2 (c.u)^2 - 3/2 u^2)) and, with total force F_t, the even Guo term
  * (1 - omega+/2) w (9 (c.u)(c.F_t) - 3 u.F_t). With E = 9/2 omega+ rho u + 9 (1 - omega+/2) F_t they are
- * w (omega+ drho - u.E / 3 + (c.u) (c.E)). Stokes flow keeps omega+ drho only.
+ * w (omega+ drho - u.E / 3 + (c.u) (c.E)). Stokes flow keeps omega+ drho only. Nothing but the last step waits for 1 / rho.
  * @see Guo, Zheng & Shi (2002), Phys. Rev. E 65, 046308
  */
 template <bool inertia, class V>
-[[gnu::always_inline]] inline V even_sources(double omega_plus, const V& drho, const V (&u)[3],
-                                             const V (&total_force)[3], V (&even_2)[3])
+[[gnu::always_inline]] inline void add_even_sources(double omega_plus, const V& drho, const V (&total_force)[3],
+                                                    Sources<V>& s)
 {
-    V even_0 = omega_plus * drho;
+    s.even_0 = omega_plus * drho;
     if constexpr (inertia) {
-        const V a = (4.5 * omega_plus) * (1 + drho);
-        const double b = 9 * (1 - 0.5 * omega_plus);
-        for (int d = 0; d < 3; ++d) even_2[d] = a * u[d] + b * total_force[d];
-        even_0 -= (1.0 / 3) * (u[0] * even_2[0] + u[1] * even_2[1] + u[2] * even_2[2]);
+        const double a = 4.5 * omega_plus, b = 9 * (1 - 0.5 * omega_plus);
+        for (int d = 0; d < 3; ++d) s.E[d] = a * s.rho_u[d] + b * total_force[d];
+        const V third = (1.0 / 3) * (s.rho_u[0] * s.E[0] + s.rho_u[1] * s.E[1] + s.rho_u[2] * s.E[2]);
+        s.even_0 -= third * s.inverse_rho;
     }
-    return even_0;
+}
+
+template <class V>
+[[gnu::always_inline]] inline V u2(const Sources<V>& s)
+{
+    const V square = s.rho_u[0] * s.rho_u[0] + s.rho_u[1] * s.rho_u[1] + s.rho_u[2] * s.rho_u[2];
+    return square * (s.inverse_rho * s.inverse_rho);
 }
 
 /**
@@ -127,19 +143,19 @@ template <class L, bool inertia, class V>
 {
     const double omega_plus = p.rates.omega_plus, omega_minus = p.rates.omega_minus;
     const Moments<V> m = moments<L>(f);
-    V u[3], odd[3], even_2[3], force[3];
-    V inverse_rho{};
-    if constexpr (inertia) inverse_rho = 1 / (1 + m.drho);
+    Sources<V> s;
+    s.inverse_rho = V{} + 1.0;
+    if constexpr (inertia) s.inverse_rho = 1 / (1 + m.drho);
+    V force[3];
     for (int d = 0; d < 3; ++d) {
         const double F = p.body_force[d];
-        const V momentum = m.j[d] + 0.5 * F;
-        u[d] = inertia ? momentum * inverse_rho : momentum;
+        s.rho_u[d] = m.j[d] + 0.5 * F;
         force[d] = V{} + F;
-        odd[d] = (3 * omega_minus) * momentum + 3 * (1 - 0.5 * omega_minus) * F;
+        s.odd[d] = (3 * omega_minus) * s.rho_u[d] + 3 * (1 - 0.5 * omega_minus) * F;
     }
-    const V even_0 = even_sources<inertia>(omega_plus, m.drho, u, force, even_2);
-    relax<L, inertia>(f, omega_plus, omega_minus, even_0, u, even_2, odd);
-    return {u[0] * u[0] + u[1] * u[1] + u[2] * u[2], m.drho};
+    add_even_sources<inertia>(omega_plus, m.drho, force, s);
+    relax<L, inertia>(f, omega_plus, omega_minus, s);
+    return {u2(s), m.drho};
 }
 
 /// What a partially saturated cell is told about its solids.
@@ -167,6 +183,25 @@ template <class V>
     return a / (p.rates.Lm * ((1 - epsilon) + 0.05 * epsilon * a) + 0.5 * a);
 }
 
+/// What its solids make of a cell's collision: known before the populations are.
+template <class V>
+struct CutCell {
+    V epsilon;      ///< solid fraction, 0 to 1
+    V kk;           ///< weight of the solid force
+    V omega_minus;  ///< omega-_c
+    V u_s[3];       ///< solid velocity
+};
+
+template <class V>
+[[gnu::always_inline]] inline CutCell<V> cut_cell(const CollisionParameters& p, const Saturation<V>& s)
+{
+    const V m = 1 - s.epsilon;
+    const V kLp = p.rates.Lp * s.strength;
+    const V least = V{} + kLeastFluidFraction;
+    const V kk = kLp / ((m > least ? m : least) + 0.5 * kLp);
+    return {s.epsilon, kk, cell_omega_minus(p, s.epsilon), {s.u_s[0], s.u_s[1], s.u_s[2]}};
+}
+
 /**
  * One collision of a partially saturated cell, exact in tau for Stokes flow (superposition form, docs/physics.md):
  *
@@ -176,37 +211,37 @@ template <class V>
  *     F_s  = kk rho (u_s - u),   u_phys = u + F_s / (2 rho)
  *
  * @return with u_phys
+ * @tparam at_rest  u_s is zero, and not looked at
  */
-template <class L, bool inertia, class V>
+template <class L, bool inertia, bool at_rest = false, class V>
 [[gnu::always_inline]] inline Seen<V> collide_saturated(V (&f)[L::Q], const CollisionParameters& p,
-                                                        const Saturation<V>& s, Exchange<V>& out)
+                                                        const CutCell<V>& cell, Exchange<V>& out)
 {
-    const V m = 1 - s.epsilon;
-    const V kLp = p.rates.Lp * s.strength;
-    const V least = V{} + kLeastFluidFraction;
-    const V kk = kLp / ((m > least ? m : least) + 0.5 * kLp);
-    const V omega_minus = cell_omega_minus(p, s.epsilon);
+    const V m = 1 - cell.epsilon;
+    const V kk = cell.kk, omega_minus = cell.omega_minus;
     const Moments<V> mo = moments<L>(f);
-    V u[3], odd[3], even_2[3], total_force[3];
-    V rho = V{} + 1.0, inverse_rho = V{} + 1.0;
+    Sources<V> sources;
+    V total_force[3];
+    V rho = V{} + 1.0;
+    sources.inverse_rho = V{} + 1.0;
     if constexpr (inertia) {
         rho = 1 + mo.drho;
-        inverse_rho = 1 / rho;
+        sources.inverse_rho = 1 / rho;
     }
     out.weight = kk * rho;
     for (int d = 0; d < 3; ++d) {
         const V mF = m * p.body_force[d];
         const V momentum = mo.j[d] + 0.5 * mF;
-        const V F_s = kk * (rho * s.u_s[d] - momentum);
-        u[d] = (momentum + 0.5 * F_s) * inverse_rho;
-        odd[d] = 3 * (omega_minus * momentum + (1 - 0.5 * omega_minus) * mF + F_s);
+        const V F_s = at_rest ? -kk * momentum : kk * (rho * cell.u_s[d] - momentum);
+        sources.rho_u[d] = momentum + 0.5 * F_s;
+        sources.odd[d] = 3 * (omega_minus * momentum + (1 - 0.5 * omega_minus) * mF + F_s);
         total_force[d] = mF + F_s;
         out.force[d] = F_s;
         out.momentum[d] = mo.j[d] + total_force[d];
     }
-    const V even_0 = even_sources<inertia>(p.rates.omega_plus, mo.drho, u, total_force, even_2);
-    relax<L, inertia>(f, p.rates.omega_plus, omega_minus, even_0, u, even_2, odd);
-    return {u[0] * u[0] + u[1] * u[1] + u[2] * u[2], m * mo.drho};
+    add_even_sources<inertia>(p.rates.omega_plus, mo.drho, total_force, sources);
+    relax<L, inertia>(f, p.rates.omega_plus, omega_minus, sources);
+    return {u2(sources), m * mo.drho};
 }
 
 }  // namespace lbm

@@ -94,11 +94,11 @@ template <class L, bool inertia, class V>
 /// The collision of cells with solids in them, by the scheme of the parameters. This is the one place that chooses.
 template <class L, bool inertia, class V>
 [[gnu::always_inline]] inline Seen<V> collide_with_solids(V (&f)[L::Q], const CollisionParameters& p,
-                                                          const Saturation<V>& s, Exchange<V>& out)
+                                                          const CutCell<V>& cell, Exchange<V>& out)
 {
-    if (p.scheme == Scheme::exact) return collide_saturated<L, inertia>(f, p, s, out);
-    return collide_published<L, inertia>(f, p, s.u_s, published_weight(p, s.epsilon), p.scheme == Scheme::bounce_back,
-                                         out);
+    if (p.scheme == Scheme::exact) return collide_saturated<L, inertia>(f, p, cell, out);
+    return collide_published<L, inertia>(f, p, cell.u_s, published_weight(p, cell.epsilon),
+                                         p.scheme == Scheme::bounce_back, out);
 }
 
 /**
@@ -108,15 +108,15 @@ template <class L, bool inertia, class V>
  */
 template <class L, bool inertia, class V>
 [[gnu::always_inline]] inline Seen<V> collide_beside_wall(V (&f)[L::Q], const CollisionParameters& p,
-                                                          const Saturation<V>& s, const V& bounce, Exchange<V>& out)
+                                                          const CutCell<V>& cell, const V& bounce, Exchange<V>& out)
 {
     V turned[L::Q];
 #pragma GCC unroll 27
     for (int i = 0; i < L::Q; ++i) turned[i] = f[i];
     Exchange<V> of_wall;
     const Seen<V> wall =
-        collide_published<L, inertia>(turned, p, s.u_s, {bounce, 1 - bounce, 2 * bounce}, true, of_wall);
-    const Seen<V> other = collide_with_solids<L, inertia>(f, p, s, out);
+        collide_published<L, inertia>(turned, p, cell.u_s, {bounce, 1 - bounce, 2 * bounce}, true, of_wall);
+    const Seen<V> other = collide_with_solids<L, inertia>(f, p, cell, out);
     const auto is_wall = bounce > 0.5;
 #pragma GCC unroll 27
     for (int i = 0; i < L::Q; ++i) f[i] = is_wall ? turned[i] : f[i];
