@@ -24,7 +24,7 @@ NOT_COVERED = """\
 ## Not covered yet
 
 - Minimum fluidisation (`10_min_fluidisation.csv`), consolidation (`09_terzaghi_*.csv`) and Skempton's B (`09_skempton_B.csv`): coupled beds of many grains between pistons, which need worked scenes first.
-- More than one arrangement of each suspension; the total angular momentum of free spheres in a closed box.
+- Suspensions that have settled over hundreds of radii in large boxes; the total angular momentum of free spheres in a closed box.
 """
 
 

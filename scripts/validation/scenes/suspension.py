@@ -2,11 +2,12 @@
 
 import math
 
+import __main__
 import numpy as np
 from scene import arguments, leave
 from yade import O, Vector3, utils
 from yade.wrapper import (Bo1_Sphere_Aabb, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack,
-                          NewtonIntegrator)
+                          NewtonIntegrator, PyRunner)
 
 from yadelbm import LbmEngine
 
@@ -24,8 +25,8 @@ else:
     gamma = given["reynolds"] / a**2
     weight, unit, push = 0.0, 1 / gamma, 6 * math.pi * a**2 * gamma
 BALLS, BEADS = 1, 2  # masks
-# contacts that give in by a hundredth of a radius under the typical force
-material = FrictMat(density=ratio, young=push / (0.01 * a * a), poisson=0.3, frictionAngle=0)
+# Contacts that give in by this part of a radius under the typical force. What a film at the roughness lets go of them takes overlap / (4 roughness) of the unit of time: it has to be small.
+material = FrictMat(density=ratio, young=push / (given["overlap"] * a * a), poisson=0.3, frictionAngle=0)
 O.materials.append(material)
 O.periodic = True
 O.cell.setBox(n, n, n if settling else n + 6 * a)
@@ -41,16 +42,9 @@ if not settling:
 speed = 0 if settling else gamma * n / 2
 still = (0, 0, 0)
 fluid = LbmEngine(lower=(0, 0, 0), upper=(n, n, n), dx=1, density=1, viscosity=1, tau=tau, gravity=(0, 0, -weight),
-                  acceleration=(0, 0, (ratio - 1) * c * weight),
+                  acceleration=(0, 0, (ratio - 1) * c * weight), lubricationRoughness=given["roughness"],
                   boundary=["periodic"] * 6 if settling else ["periodic"] * 4 + ["noSlip"] * 2,
                   boundaryVelocity=[still] * 4 + [(-speed, 0, 0), (speed, 0, 0)], ids=balls, label="fluid")
-O.engines = [
-    ForceResetter(),
-    InsertionSortCollider([Bo1_Sphere_Aabb()], avoidSelfInteractionMask=BEADS),
-    InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
-    fluid,
-    NewtonIntegrator(gravity=(0, 0, -weight), damping=0),
-]
 if not settling:
     for ball in balls:  # on their way with the shear already
         O.bodies[ball].state.vel = Vector3(gamma * (O.bodies[ball].state.pos[2] - n / 2), 0, 0)
@@ -65,33 +59,61 @@ def contact_stress():
     return total / n**3
 
 
+def sample_settling():
+    mean = np.mean([O.bodies[b].state.vel[2] for b in balls])
+    samples.append((fluid.averageVelocity()[2] - mean) / terminal)
+
+
+def sample_shear():
+    wall = (fluid.getBoundaryForce(4)[0] - fluid.getBoundaryForce(5)[0]) / 2
+    stresslets = sum(fluid.stresslet(b)[0][2] for b in balls)
+    samples.append((abs(wall) / (n * n * gamma), stresslets / (n**3 * gamma), contact_stress() / gamma))
+
+
+def sample_profile():
+    """Mean velocity and solid fraction of the layers of cells."""
+    profiles.append((fluid.velocity[..., 0].mean((1, 2)) / (gamma * n), fluid.solidFraction.mean((1, 2))))
+
+
+samples, profiles = [], []
 total = math.ceil(given["duration"] * unit / O.dt)
-every = max(1, total // 2000)
-samples = []
-while O.iter < total:
-    O.run(every, True)
-    if settling:
-        mean = np.mean([O.bodies[b].state.vel[2] for b in balls])
-        samples.append((fluid.averageVelocity()[2] - mean) / terminal)
-    else:
-        wall = (fluid.getBoundaryForce(4)[0] - fluid.getBoundaryForce(5)[0]) / 2
-        stresslets = sum(fluid.stresslet(b)[0][2] for b in balls)
-        samples.append((abs(wall) / (n * n * gamma), stresslets / (n**3 * gamma), contact_stress() / gamma))
+observers = {"sample_settling": 500} if settling else {"sample_shear": 1000, "sample_profile": 80}
+for name in observers:
+    setattr(__main__, name, globals()[name])  # where PyRunner looks for names
+O.engines = [
+    ForceResetter(),
+    InsertionSortCollider([Bo1_Sphere_Aabb()], avoidSelfInteractionMask=BEADS),
+    InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
+    fluid,
+    NewtonIntegrator(gravity=(0, 0, -weight), damping=0),
+    *(PyRunner(iterPeriod=max(1, total // times), command=name + "()") for name, times in observers.items()),
+]
+O.run(total, True)
+
+
+def error(late):
+    """Standard error of the mean, from blocks in time."""
+    return float(np.std([block.mean() for block in np.array_split(late, 6)], ddof=1) / math.sqrt(6))
+
+
+samples = np.array(samples)
 result = {"n": n, "radius_cells": a, "cells": n**3, "steps": O.iter, "samples": len(samples)}
+late = samples[len(samples) // 2:]
 if settling:
-    late = np.array(samples[len(samples) // 3:])
-    blocks = [block.mean() for block in np.array_split(late, 6)]
-    result.update(ratio=float(late.mean()), error=float(np.std(blocks, ddof=1) / math.sqrt(6)),
-                  history=[round(float(b.mean()), 5) for b in np.array_split(np.array(samples), 24)])
+    result.update(ratio=float(late.mean()), error=error(late), early=float(samples[len(samples) // 20:len(samples) // 5].mean()))
 else:
-    late = np.array(samples[len(samples) // 2:])
     at = np.array([O.bodies[b].state.pos for b in balls])
     apart = at[:, None] - at[None, :]
     apart[..., :2] -= n * np.round(apart[..., :2] / n)
     distance = np.sqrt((apart**2).sum(-1)) + 1e9 * np.eye(len(balls))
     result["nearest"] = float(distance.min() / (2 * a))  # distance of centres in diameters
     wall, stresslet, contact = late.mean(0)
-    blocks = [block[:, 0].mean() for block in np.array_split(late, 6)]
-    result.update(eta=float(wall), error=float(np.std(blocks, ddof=1) / math.sqrt(6)), eta_stresslet=float(1 + stresslet), eta_contacts=float(contact),
-                  history=[round(float(b.mean()), 5) for b in np.array_split(np.array(samples)[:, 0], 24)])
+    # the middle half, away from the layers that plates order: mean solid fraction, and shear rate over the mean one
+    core = slice(round(n / 4), n - round(n / 4))
+    velocity, solid = np.mean(profiles[len(profiles) // 2:], 0)
+    slope = np.polyfit(((np.arange(n) + 0.5) / n)[core], velocity[core], 1)[0]
+    result.update(eta=float(wall), error=error(late[:, 0]), eta_stresslet=float(1 + stresslet), eta_contacts=float(contact),
+                  phi_core=float(solid[core].mean()), rate_core=float(slope), eta_core=float(wall / slope),
+                  solid=[round(float(x), 4) for x in solid])
+result["history"] = [round(float(block.mean()), 5) for block in np.array_split(samples if settling else samples[:, 0], 24)]
 leave(result)
