@@ -111,6 +111,11 @@ public:
     /// Momentum of the fluid outside the solids, with the part of it that is on its way to them [kg m/s]: adding the solids' own
     /// (m V) gives a sum that only drive, weight and walls change.
     Vec3 total_momentum() const;
+    /**
+     * The same for angular momentum about the origin of the coordinates [kg m2/s]: with the solids' own (m X x V and that of their spin) the sum changes by the torques of walls and weight
+     * alone, to round-off. In periodic directions there is no such law.
+     */
+    Vec3 total_angular_momentum() const;
     /// Volume of fluid per time (mass over `density`) that left the box through a face in the last step; through a periodic one too [m3/s].
     double boundary_flux(Face face) const;
     /**
@@ -121,6 +126,8 @@ public:
      * loads (of the step, without buoyancy).
      */
     Vec3 boundary_force(Face face) const;  ///< [N]
+    /// The same for the moment of this force about the origin of the coordinates, without films [N m].
+    Vec3 boundary_torque(Face face) const;
     /// In steady motion the sum of its parts is the mean stress on the faces: of a solid that does not turn freely, with its torque.
     StressParts stress() const;
     double kinetic_energy() const;          ///< of the fluid outside the solids [J]

@@ -244,13 +244,16 @@ std::array<Faces::Passage, 6> Faces::passages(const T* f, bool odd,
                         const Slot at = z * stride_[2] + y * stride_[1] + x;
                         const auto& cell = links.to_cell;
                         const double rho = crossed > 1 ? drho(cell[0] + x, cell[1] + y, cell[2] + z) : 0;
-                        share(links, f[links.to.out(odd) + at], f[links.to.in(odd) + at], rho, sums);
+                        const Vec3 place{cell[0] + x + 0.5 - 0.5 * links.c[0], cell[1] + y + 0.5 - 0.5 * links.c[1],
+                                         cell[2] + z + 0.5 - 0.5 * links.c[2]};
+                        share(links, place, f[links.to.out(odd) + at], f[links.to.in(odd) + at], rho, sums);
                     }
         }
     return sums;
 }
 
-void Faces::share(const Links& links, double out, double in, double drho, std::array<Passage, 6>& sums) const
+void Faces::share(const Links& links, const Vec3& place, double out, double in, double drho,
+                  std::array<Passage, 6>& sums) const
 {
     std::array<int, 3> walls{}, periodic{},
         bearers{};  // crossed, as flags per axis; bearers: of more than the pressure on a normal
@@ -281,16 +284,23 @@ void Faces::share(const Links& links, double out, double in, double drho, std::a
         if (passes && periodic[d]) add(d).volume += volume;
         else if (!passes && bearers[d]) add(d).volume += volume / count(bearers);
 
+    const auto give = [&](int e, int d, double momentum) {
+        Passage& face = add(e);
+        face.momentum[d] += momentum;
+        const int b = (d + 1) % 3, c = (d + 2) % 3;
+        face.moment[b] += place[c] * momentum;
+        face.moment[c] -= place[b] * momentum;
+    };
     for (int d = 0; d < 3; ++d) {
         double momentum = count(walls) > 0 ? -links.c[d] * (out + in) : 0;
         if (walls[d]) {
             const bool whole = count(walls) == 1 || types_[links.face[d]] == FaceType::free_slip;
             const double normal = whole ? momentum : -2 * links.w * links.c[d] * drho;
-            add(d).momentum[d] += normal;
+            give(d, d, normal);
             momentum -= normal;
         }
         for (int e = 0; e < 3; ++e)
-            if (bearers[e]) add(e).momentum[d] += momentum / count(bearers);
+            if (bearers[e]) give(e, d, momentum / count(bearers));
     }
 }
 

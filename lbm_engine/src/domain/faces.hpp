@@ -55,6 +55,7 @@ public:
     struct Passage {
         double volume = 0;  ///< leaving the box; through a periodic face too
         Vec3 momentum{};    ///< given to the face by the fluid; none to a periodic one
+        Vec3 moment{};      ///< of this momentum about the lower corner of the box, given half-way along each link
     };
     /**
      * By exchange over the links; the sums over all faces are exact. A link across several faces counts for each of them with the velocity normal to it. Of its
@@ -104,7 +105,8 @@ private:
     double dynamic_gain(const Links& links, int x, int y, int z) const;
     template <class T>
     void see_dynamic_pressure(T* f, bool odd);
-    void share(const Links& links, double out, double in, double drho, std::array<Passage, 6>& sums) const;
+    void share(const Links& links, const Vec3& place, double out, double in, double drho,
+               std::array<Passage, 6>& sums) const;
 
     std::array<Slot, 3> stride_;
     std::array<FaceType, 6> types_;

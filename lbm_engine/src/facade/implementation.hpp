@@ -68,6 +68,8 @@ struct Fluid::Implementation {
 
     void start_at(double drho, const Vec3& u);
     void place(const std::vector<Solid>& now);
+    /// From one place of a solid to the next, to the nearest image [m].
+    Vec3 way(const Solid& before, const Solid& now) const;
     /// Whether a solid goes on being what it was; one that jumped by more than its radius is another one.
     bool is_same(const Solid& now, const Solid& before) const;
     void step();

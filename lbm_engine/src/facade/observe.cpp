@@ -50,6 +50,13 @@ Vec3 Fluid::boundary_force(Face face) const
     return fluid.units.force * fluid.passages()[face].momentum + fluid.film_forces_on_walls[face];
 }
 
+Vec3 Fluid::boundary_torque(Face face) const
+{
+    const auto& fluid = *implementation_;
+    const Faces::Passage passage = fluid.passages()[face];
+    return fluid.units.torque * passage.moment + cross(config().lower, fluid.units.force * passage.momentum);
+}
+
 double Fluid::mean_density_deviation() const
 {
     const auto& fluid = *implementation_;
@@ -68,6 +75,22 @@ Vec3 Fluid::total_momentum() const
     Vec3 sum = fluid.sum_cells<Vec3>([](const CellState& cell) { return cell.momentum; });
     for (const LoadLedger& ledger : fluid.ledgers) sum += ledger.outstanding() - ledger.momentum;
     return fluid.units.momentum * sum;
+}
+
+Vec3 Fluid::total_angular_momentum() const
+{
+    const auto& fluid = *implementation_;
+    const Vec3 sum = fluid.sum_cells<Vec3>([](const CellState& cell) {
+        return cross({cell.x + 0.5, cell.y + 0.5, cell.z + 0.5}, cell.momentum);
+    });
+    Vec3 total = (fluid.units.momentum * fluid.units.length) * sum;
+    for (std::size_t s = 0; s < fluid.ledgers.size(); ++s) {
+        const LoadLedger& ledger = fluid.ledgers[s];
+        total += (fluid.units.momentum * fluid.units.length) * (ledger.outstanding_moment() - ledger.angular_momentum);
+        total += cross(fluid.solids[s].position - config().lower,
+                       fluid.units.momentum * (ledger.outstanding() - ledger.momentum));
+    }
+    return total + cross(config().lower, total_momentum());
 }
 
 StressParts Fluid::stress() const

@@ -52,15 +52,20 @@ Solid Fluid::Implementation::in_mid_step(const Solid& solid, const Motion& last)
     return mid;
 }
 
+Vec3 Fluid::Implementation::way(const Solid& before, const Solid& now) const
+{
+    Vec3 moved = now.position - before.position;
+    for (int d = 0; d < 3; ++d) {
+        const double length = config.cells[d] * config.dx;
+        if (config.faces[2 * d].type == FaceType::periodic) moved[d] -= length * std::round(moved[d] / length);
+    }
+    return moved;
+}
+
 bool Fluid::Implementation::is_same(const Solid& now, const Solid& before) const
 {
-    double distance2 = 0;
-    for (int d = 0; d < 3; ++d) {
-        double moved = now.position[d] - before.position[d];
-        const double length = config.cells[d] * config.dx;
-        if (config.faces[2 * d].type == FaceType::periodic) moved -= length * std::round(moved / length);
-        distance2 += moved * moved;
-    }
+    const Vec3 moved = way(before, now);
+    const double distance2 = dot(moved, moved);
     const auto& h = now.half_extents;
     const double jump = now.shape == Shape::box ? std::min({h[0], h[1], h[2]}) : now.radius;
     return now.id == before.id && now.shape == before.shape && now.radius == before.radius &&
@@ -94,6 +99,8 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
     for (std::ptrdiff_t s = 0; s < count; ++s)
         lattice_solids[s] = in_lattice_units(previous[s] < 0 ? now[s] : in_mid_step(now[s], last_motions[previous[s]]));
     map.update(lattice_solids, previous);
+    for (std::ptrdiff_t s = 0; s < count; ++s)
+        if (previous[s] >= 0) ledgers[previous[s]].move((1 / units.length) * way(solids[previous[s]], now[s]));
     if (!same_ids) {
         std::vector<LoadLedger> kept(now.size());
         std::vector<Motion> motions(now.size());

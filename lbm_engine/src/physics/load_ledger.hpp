@@ -52,6 +52,15 @@ struct LoadLedger {
 
     /// All that was taken and not passed on yet.
     Vec3 outstanding() const { return owed + arrears; }
+    Vec3 outstanding_moment() const { return owed_moment + arrears_moment; }
+
+    /// The centre, about which all moments are, moves by `shift`.
+    void move(const Vec3& shift)
+    {
+        angular_momentum -= cross(shift, momentum);
+        owed_moment -= cross(shift, owed);
+        arrears_moment -= cross(shift, arrears);
+    }
 
     /**
      * The time step becomes s times what it was (lattice units change with it). In a steady motion what is owed goes with dt^2; the

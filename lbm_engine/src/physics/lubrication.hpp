@@ -4,11 +4,6 @@
 
 namespace lbm {
 
-inline Vec3 cross(const Vec3& a, const Vec3& b)
-{
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /**
  * Lubrication: what the lattice does not resolve of the thin film between two surfaces (docs/physics.md, "Films").
  *
