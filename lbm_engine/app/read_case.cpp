@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <sstream>
 
@@ -187,19 +186,28 @@ CaseSolid read_solid(Section s, std::int64_t id)
     if (entry.free && entry.moving)
         throw ConfigError(s.name("free") + ": a solid is free or moving at its velocity, not both");
     if (entry.free) {
-        if (solid.body >= 0)
-            throw ConfigError(s.name("free") + ": a part of a rigid body cannot be free here; clumps in YADE can");
-        if (solid.shape != Shape::sphere) throw ConfigError(s.name("free") + ": only a sphere can be free");
-        const double density = s.number("density");
-        if (!(std::isfinite(density) && density > 0))
+        if (solid.shape == Shape::pipe) throw ConfigError(s.name("free") + ": a pipe cannot be free");
+        entry.density = s.number("density");
+        if (!(std::isfinite(entry.density) && entry.density > 0))
             throw ConfigError(s.name("density") + ": must be finite and > 0 [kg/m3]");
-        solid.mass = 4 * std::numbers::pi / 3 * std::pow(solid.radius, 3) * density;
-        solid.inertia = 0.4 * solid.mass * solid.radius * solid.radius;
     } else if (s.has("density")) {
         throw ConfigError(s.name("density") + ": only a free solid has one; add \"free\": true");
     }
     s.close();
     return entry;
+}
+
+/// Parts of a rigid body are all fixed, all moving or all free.
+void require_bodies_move_as_one(const std::vector<CaseSolid>& solids)
+{
+    for (std::size_t s = 0; s < solids.size(); ++s)
+        for (std::size_t before = 0; before < s; ++before) {
+            const CaseSolid &one = solids[s], &other = solids[before];
+            if (one.solid.body < 0 || one.solid.body != other.solid.body) continue;
+            if (one.free != other.free || one.moving != other.moving)
+                throw ConfigError("solids[" + std::to_string(s) + "].body: is free or moving otherwise than solids[" +
+                                  std::to_string(before) + "], which is a part of the same body");
+        }
 }
 
 }  // namespace
@@ -250,6 +258,7 @@ Case read_case(const Json& json)
             result.solids.push_back(read_solid({solid, "solids[" + std::to_string(id) + "]"}, id));
             ++id;
         }
+        require_bodies_move_as_one(result.solids);
     }
     if (root.has("stop")) {
         Section stop = root.section("stop");

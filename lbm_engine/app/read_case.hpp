@@ -14,7 +14,8 @@ namespace lbm {
 struct CaseSolid {
     Solid solid;
     bool moving = false;  ///< moves through the lattice at its velocity
-    bool free = false;    ///< answers to its load; mass and inertia follow from its density
+    bool free = false;    ///< answers to its load; mass and moments of its body follow from the densities of the parts
+    double density = 0;   ///< of a free one [kg/m3]
 };
 
 /// A run of the engine alone, as `lbm run CASE.json` describes it.

@@ -1,5 +1,7 @@
 #include "run_case.hpp"
 
+#include "rigid_body.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -7,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <numbers>
 
 namespace lbm {
@@ -57,9 +60,18 @@ double change(const Snapshot& before, const Snapshot& now, double fastest, doubl
 /// Moves the solids of a case from step to step.
 class Motion {
 public:
-    Motion(const Case& input, double dt) : kinds_(input.solids), dt_(dt), gravity_(input.fluid.gravity)
+    Motion(const Case& input, double dt) : dt_(dt), gravity_(input.fluid.gravity)
     {
-        for (const CaseSolid& s : input.solids) solids_.push_back(s.solid);
+        std::map<std::int64_t, std::vector<RigidBodyPart>> bodies;  // the free ones; negative numbers for single solids
+        for (std::size_t s = 0; s < input.solids.size(); ++s) {
+            const CaseSolid& entry = input.solids[s];
+            solids_.push_back(entry.solid);
+            if (entry.moving) moving_.push_back(s);
+            if (!entry.free) continue;
+            const std::int64_t body = entry.solid.body >= 0 ? entry.solid.body : -1 - static_cast<std::int64_t>(s);
+            bodies[body].push_back({s, entry.density});
+        }
+        for (auto& [body, parts] : bodies) bodies_.emplace_back(std::move(parts), solids_);
     }
     const std::vector<Solid>& solids() const noexcept { return solids_; }
     /// Semi-implicit Euler: velocities with the loads and weight, then those of the films, which need these, then positions.
@@ -67,34 +79,27 @@ public:
     const std::vector<SolidLoad>& advance(Fluid& fluid)
     {
         loads_ = fluid.loads();
-        accelerate(loads_, gravity_);
+        for (RigidBody& body : bodies_) body.push(loads_, gravity_, dt_, solids_);
         const auto& films = fluid.film_loads(solids_, dt_);
-        accelerate(films, {});
-        for (std::size_t s = 0; s < solids_.size(); ++s) {
+        for (RigidBody& body : bodies_) {
+            body.push(films, {}, dt_, solids_);
+            body.move(dt_, solids_);
+        }
+        for (const std::size_t s : moving_)
+            for (int d = 0; d < 3; ++d) solids_[s].position[d] += dt_ * solids_[s].velocity[d];
+        for (std::size_t s = 0; s < solids_.size(); ++s)
             for (int d = 0; d < 3; ++d) {
                 loads_[s].force[d] += films[s].force[d];
                 loads_[s].torque[d] += films[s].torque[d];
                 for (int e = 0; e < 3; ++e) loads_[s].stresslet[d][e] += films[s].stresslet[d][e];
-                if (kinds_[s].free || kinds_[s].moving) solids_[s].position[d] += dt_ * solids_[s].velocity[d];
             }
-        }
         return loads_;
     }
 
 private:
-    void accelerate(const std::vector<SolidLoad>& loads, const Vec3& gravity)
-    {
-        for (std::size_t s = 0; s < solids_.size(); ++s) {
-            if (!kinds_[s].free) continue;
-            for (int d = 0; d < 3; ++d) {
-                solids_[s].velocity[d] += dt_ * (loads[s].force[d] / solids_[s].mass + gravity[d]);
-                solids_[s].angular_velocity[d] += dt_ * loads[s].torque[d] / solids_[s].inertia;
-            }
-        }
-    }
-
-    std::vector<CaseSolid> kinds_;
     std::vector<Solid> solids_;
+    std::vector<std::size_t> moving_;
+    std::vector<RigidBody> bodies_;
     std::vector<SolidLoad> loads_;
     double dt_;
     Vec3 gravity_;
@@ -171,6 +176,7 @@ CaseResult run_case(const Case& input, const std::function<void(const Progress&)
                                   {"torque", load.torque},
                                   {"stresslet", load.stresslet},
                                   {"position", solid.position},
+                                  {"orientation", solid.orientation},
                                   {"velocity", solid.velocity},
                                   {"angular_velocity", solid.angular_velocity}});
     }

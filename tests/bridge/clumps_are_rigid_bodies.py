@@ -1,5 +1,8 @@
 """Clumps in the fluid: YADE moves them as rigid bodies, and the loads of their members add up."""
 
+import json
+import subprocess
+
 from claims import *
 
 RADIUS, ROUND_OFF = 3.5e-3, 1e-10
@@ -83,5 +86,36 @@ def the_plan_takes_a_clump_for_one_grain():
         check_close(speeds[0] / speeds[1], 1, 0.15, "expected speed, half %g" % half)
 
 
+def a_clump_settles_as_a_free_body_of_the_engine_alone():
+    tau, cells, steps, radius, g = 0.8, (20, 20, 26), 400, 3e-3, (0, 0, -0.01)
+    centres = [(10e-3 + s * 0.6 * radius, 10e-3, 16e-3 + s * 0.8 * radius) for s in (-1, 1)]  # touching, askew: it turns and drifts
+    densities = (3000, 2000)
+    wall = {"min": {"type": "noSlip"}, "max": {"type": "noSlip"}}
+    case = {
+        "domain": {"cells": cells, "dx": FLUID["dx"]},
+        "fluid": {"density": FLUID["density"], "viscosity": FLUID["viscosity"]},
+        "tau": tau,
+        "gravity": g,
+        "boundaries": {axis: wall for axis in "xyz"},
+        "solids": [{"center": c, "radius": radius, "free": True, "density": q, "body": 1} for c, q in zip(centres, densities)],
+        "stop": {"max_steps": steps},
+    }
+    run = subprocess.run([os.environ["LBM_PROGRAM"], "run", "-"], input=json.dumps(case), stdout=subprocess.PIPE, text=True, check=True)
+    alone = json.loads(run.stdout)["solids"]
+
+    fluid = box(cells, tau=tau, gravity=g)
+    spheres = [sphere(c, radius, material=FrictMat(density=q)) for c, q in zip(centres, densities)]
+    clump, members = O.bodies.appendClumped(spheres, discretization=0)
+    O.engines, O.dt = engines(fluid, g), fluid_step(tau)
+    O.run(steps, True)
+    fallen = centres[0][2] - alone[0]["position"][2]
+    check(fallen > 1e-3, "it hardly moved, by %g m" % fallen)
+    check(abs(O.bodies[clump].state.angVel[1]) * 300 * O.dt > 0.02, "it hardly turned")
+    for member, expected in zip(members, alone):
+        for d in range(3):
+            check_close(O.bodies[member].state.pos[d], expected["position"][d], 1e-5 * fallen, "position")
+            check_close(O.bodies[member].state.vel[d], expected["velocity"][d], 1e-5 * abs(alone[0]["velocity"][2]), "velocity")
+
+
 prove(momentum_is_conserved_with_clumps, loads_of_the_members_turn_the_clump, light_dumb_bells_come_to_rest,
-      the_plan_takes_a_clump_for_one_grain)
+      the_plan_takes_a_clump_for_one_grain, a_clump_settles_as_a_free_body_of_the_engine_alone)

@@ -46,6 +46,27 @@ def drag(case, result):
     return DENSITY * DRIVE * volume / (6 * math.pi * VISCOSITY * case["solids"][0]["radius"] * result["superficial_velocity"][0])
 
 
+def free_turn(moments, spin, time, steps=4000):
+    """Axes and angular velocity about them of a body without torque, after `time`: Euler's equations, Runge and Kutta."""
+    def cross(a, b):
+        return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+    def rate(state):
+        w, axes = state[:3], [state[3 + 3 * i : 6 + 3 * i] for i in range(3)]
+        turned = [(moments[(i + 1) % 3] - moments[(i + 2) % 3]) / moments[i] * w[(i + 1) % 3] * w[(i + 2) % 3] for i in range(3)]
+        absolute = [sum(axes[i][d] * w[i] for i in range(3)) for d in range(3)]
+        return turned + [x for axis in axes for x in cross(absolute, axis)]
+
+    state, h = list(spin) + [1, 0, 0, 0, 1, 0, 0, 0, 1], time / steps
+    for _ in range(steps):
+        k1 = rate(state)
+        k2 = rate([x + h / 2 * k for x, k in zip(state, k1)])
+        k3 = rate([x + h / 2 * k for x, k in zip(state, k2)])
+        k4 = rate([x + h * k for x, k in zip(state, k3)])
+        state = [x + h / 6 * (a + 2 * b + 2 * c + d) for x, a, b, c, d in zip(state, k1, k2, k3, k4)]
+    return [state[3 + 3 * i : 6 + 3 * i] for i in range(3)], state[:3]
+
+
 def reference_drag(c):
     with open(os.path.join(REFERENCE, "02_cubic_arrays_stokes.csv"), encoding="utf-8") as file:
         for row in csv.DictReader(line for line in file if not line.startswith("#")):
@@ -110,6 +131,43 @@ class Results(unittest.TestCase):
         self.assertAlmostEqual(result["solids"][0]["position"][0], 5 * DX + 1e-6 * result["time"], delta=1e-15)
         self.assertLess(result["solids"][0]["force"][0], 0)
 
+    def test_a_heavy_body_turns_as_euler_says(self):
+        # A box and the same one made of two halves, a billion times as dense as the fluid, turning about an axis near the one of its second moment.
+        half, spin = [3.0, 4.0, 5.5], [0.00075, 0.01, 0.0005]
+        moments = [half[1] ** 2 + half[2] ** 2, half[2] ** 2 + half[0] ** 2, half[0] ** 2 + half[1] ** 2]
+        steps = 1200
+        axes, w = free_turn(moments, spin, steps)
+        expected = [sum(axes[i][d] * w[i] for i in range(3)) for d in range(3)]
+        middle = 10.0
+        one = [{"shape": "box", "center": [middle] * 3, "half_extents": half}]
+        two = [{"shape": "box", "center": [middle, middle, middle + z], "half_extents": [3, 4, 2.75], "body": 7, "velocity": [spin[1] * z, -spin[0] * z, 0]} for z in (-2.75, 2.75)]
+        for solids in (one, two):
+            for solid in solids:
+                solid.update(free=True, density=1e9, angular_velocity=spin)
+            case = {"domain": {"cells": [20] * 3, "dx": 1.0}, "fluid": {"density": 1.0, "viscosity": 0.1}, "tau": 0.8, "solids": solids, "stop": {"max_steps": steps}}
+            status, result, message = run(case)
+            self.assertEqual(status, 0, message)
+            for found in result["solids"]:
+                for d in range(3):
+                    self.assertAlmostEqual(found["angular_velocity"][d], expected[d], delta=1e-5 * 0.01)
+            centre = [sum(s["position"][d] for s in result["solids"]) / len(solids) for d in range(3)]
+            for d in range(3):
+                self.assertAlmostEqual(centre[d], middle, delta=1e-3)
+            if solids is two:
+                arm = [(b - a) / 5.5 for a, b in zip(*(s["position"] for s in result["solids"]))]
+                for d in range(3):
+                    self.assertAlmostEqual(arm[d], axes[2][d], delta=1e-3)
+
+    def test_a_body_of_coincident_spheres_moves_as_one(self):
+        ball = {"center": [4.1 * DX, 3.9 * DX, 4 * DX], "radius": 2.5 * DX, "free": True, "density": 2000.0}
+        results = []
+        for solids in ([dict(ball, body=3)], [dict(ball, body=3), dict(ball, body=3)]):
+            _, result, _ = run(array(acceleration=[0, 0, 0], gravity=[1e-3, 0, -1e-3], stop={"max_steps": 300}, solids=solids))
+            results.append(result["solids"])
+        for d in range(3):
+            for other in results[1]:
+                self.assertAlmostEqual(results[0][0]["velocity"][d], other["velocity"][d], delta=1e-9 * abs(results[0][0]["velocity"][0]))
+
     def test_what_comes_in_goes_out_and_pressure_bears_the_walls(self):
         wall, slip = {"type": "noSlip"}, {"type": "freeSlip"}
         inlet, outlet = {"type": "velocity", "velocity": [1e-4, 0, 0]}, {"type": "pressure", "pressure": 2e-3}
@@ -172,6 +230,10 @@ class Messages(unittest.TestCase):
         solid = dict(array()["solids"][0], colour="red")
         self.refused("solids[0].colour: unknown key", array(solids=[solid]))
         self.refused("a solid is free or moving", array(solids=[dict(array()["solids"][0], free=True, moving=True, density=1)]))
+        sphere = dict(array()["solids"][0], free=True, density=1.0, body=1)
+        self.refused("free or moving otherwise than solids[0]", array(solids=[sphere, dict(array()["solids"][0], body=1)]))
+        self.refused("solids[1].velocity: with the velocities of the first part", array(solids=[sphere, dict(sphere, velocity=[1, 0, 0])]))
+        self.refused("a pipe cannot be free", array(solids=[dict(sphere, shape="pipe")]))
         self.refused("boundaries.x.max: missing", array(boundaries={"x": {"min": {"type": "noSlip"}}}))
         self.refused('boundaries.x: must be "periodic" or {"min"', array(boundaries={"x": "noSlip"}))
         self.refused("boundaries.x.min.pressure: missing", array(boundaries={"x": {"min": {"type": "pressure"}, "max": {}}}))
