@@ -2,6 +2,7 @@
 
 from .arrays import ARRAYS
 from .channels import CHANNELS
+from .consolidation import CONSOLIDATION, SKEMPTON
 from .dumb_bell import DUMB_BELL
 from .free import FREE
 from .lubrication import LUBRICATION
@@ -18,4 +19,4 @@ from .time_coupling import TIME_COUPLING
 from .time_steps import TIME_STEPS
 
 CASES = [CHANNELS, ARRAYS, TAU, STUDY, GEOMETRY, WALLS_CASE, TORQUE, TOWED, DUMB_BELL, ROD, LUBRICATION, FREE, TEN_CATE, COUETTE_CASE, STREAM, TIME_COUPLING, TIME_STEPS,
-         PACKS, SUSPENSIONS]
+         PACKS, SUSPENSIONS, SKEMPTON, CONSOLIDATION]

@@ -4,8 +4,12 @@ import csv
 import json
 import math
 import os
+import re
 import subprocess
+import sys
 import tempfile
+
+import numpy as np
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 REFERENCE = os.path.join(ROOT, "tests", "reference")
@@ -68,6 +72,15 @@ def stokes(cells, solids, tau, steady=1e-6, **more):
         "stop": {"steady": steady, "max_steps": 1000000},
         **more,
     }
+
+
+def read_vti(path, name):
+    """A field of a file that the engine wrote, as a flat array."""
+    with open(path, "rb") as file:
+        head, data = file.read().split(b'<AppendedData encoding="raw">\n_', 1)
+    offset = int(re.search(rb'Name="%s"[^>]*offset="(\d+)"' % name.encode(), head).group(1))
+    size = int.from_bytes(data[offset:offset + 8], sys.byteorder)
+    return np.frombuffer(data, np.float32, size // 4, offset + 8)
 
 
 def sphere(center, radius, **more):

@@ -23,8 +23,9 @@ Made by `scripts/validate` from the results in [{folder}/]({folder}/), which hol
 NOT_COVERED = """\
 ## Not covered yet
 
-- Minimum fluidisation (`10_min_fluidisation.csv`), consolidation (`09_terzaghi_*.csv`) and Skempton's B (`09_skempton_B.csv`): coupled beds of many grains between pistons, which need worked scenes first.
-- Suspensions that have settled over hundreds of radii in large boxes; the total angular momentum of free spheres in a closed box.
+- Minimum fluidisation (`10_min_fluidisation.csv`).
+- Consolidation of a random bed of grains that roll and slide; a column that only gets shorter stands for it.
+- Suspensions that have settled over hundreds of radii in large boxes.
 """
 
 
