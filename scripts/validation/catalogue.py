@@ -4,6 +4,7 @@ from .arrays import ARRAYS
 from .channels import CHANNELS
 from .consolidation import CONSOLIDATION, SKEMPTON
 from .dumb_bell import DUMB_BELL
+from .fluidisation import FLUIDISATION
 from .free import FREE
 from .lubrication import LUBRICATION
 from .packs import PACKS
@@ -19,4 +20,4 @@ from .time_coupling import TIME_COUPLING
 from .time_steps import TIME_STEPS
 
 CASES = [CHANNELS, ARRAYS, TAU, STUDY, GEOMETRY, WALLS_CASE, TORQUE, TOWED, DUMB_BELL, ROD, LUBRICATION, FREE, TEN_CATE, COUETTE_CASE, STREAM, TIME_COUPLING, TIME_STEPS,
-         PACKS, SUSPENSIONS, SKEMPTON, CONSOLIDATION]
+         PACKS, SUSPENSIONS, SKEMPTON, CONSOLIDATION, FLUIDISATION]

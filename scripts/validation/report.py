@@ -23,7 +23,7 @@ Made by `scripts/validate` from the results in [{folder}/]({folder}/), which hol
 NOT_COVERED = """\
 ## Not covered yet
 
-- Minimum fluidisation (`10_min_fluidisation.csv`).
+- Minimum fluidisation at other Archimedes numbers, and of higher beds.
 - Consolidation of a random bed of grains that roll and slide; a column that only gets shorter stands for it.
 - Suspensions that have settled over hundreds of radii in large boxes.
 """
