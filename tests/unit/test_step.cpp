@@ -1,6 +1,6 @@
 #include "close.hpp"
-#include "lattice/vec3.hpp"
 #include "lattice/d3q27.hpp"
+#include "lattice/vec3.hpp"
 #include "lattice_units.hpp"
 #include "reference_fluid.hpp"
 
