@@ -171,6 +171,21 @@ void read_shape(Section& s, Solid& solid)
     }
 }
 
+/// What the mass of a free solid follows from; the engine checks the rest.
+void require_a_volume(const Section& s, const Solid& solid)
+{
+    const auto positive = [](double length) { return std::isfinite(length) && length > 0; };
+    if (solid.shape == Shape::sphere && !positive(solid.radius))
+        throw ConfigError(s.name("radius") + ": must be finite and > 0 [m]");
+    const Vec3& h = solid.half_extents;
+    if (solid.shape == Shape::box && !std::all_of(h.begin(), h.end(), positive))
+        throw ConfigError(s.name("half_extents") + ": must be finite and > 0 [m]");
+    double square = 0;
+    for (const double q : solid.orientation) square += q * q;
+    if (!(std::abs(square - 1) < 1e-6))
+        throw ConfigError(s.name("orientation") + ": must be a unit quaternion (w, x, y, z)");
+}
+
 CaseSolid read_solid(Section s, std::int64_t id)
 {
     CaseSolid entry;
@@ -187,6 +202,7 @@ CaseSolid read_solid(Section s, std::int64_t id)
         throw ConfigError(s.name("free") + ": a solid is free or moving at its velocity, not both");
     if (entry.free) {
         if (solid.shape == Shape::pipe) throw ConfigError(s.name("free") + ": a pipe cannot be free");
+        require_a_volume(s, solid);
         entry.density = s.number("density");
         if (!(std::isfinite(entry.density) && entry.density > 0))
             throw ConfigError(s.name("density") + ": must be finite and > 0 [kg/m3]");

@@ -245,6 +245,10 @@ class Messages(unittest.TestCase):
         self.refused("dx = -1", array(domain={"cells": [8, 8, 8], "dx": -1}))
         self.refused("must lie between", array(tau=0.5))
         self.refused("solid 0: radius", array(solids=[{"center": [0, 0, 0], "radius": DX}]))
+        free = {"center": [4 * DX] * 3, "free": True, "density": 1.0}
+        self.refused("solids[0].radius: must be finite and > 0", array(solids=[dict(free, radius=0)]))
+        self.refused("solids[0].half_extents: must be finite and > 0", array(solids=[dict(free, shape="box", half_extents=[DX, 0, DX])]))
+        self.refused("solids[0].orientation: must be a unit quaternion", array(solids=[dict(free, shape="box", half_extents=[DX] * 3, orientation=[0, 0, 0, 0])]))
         self.refused("larger than the box", array(solids=[{"center": [0, 0, 0], "radius": 5 * DX}]))
 
     def test_text_that_is_no_case(self):
