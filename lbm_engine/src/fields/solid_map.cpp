@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <unordered_map>
+#include <utility>
 
 namespace lbm {
 namespace {
@@ -56,6 +57,31 @@ int units_along(int i0, int count, int n, int size)
     Walk walk(i0, n, size);
     for (int i = 1; i < count; ++i) walk.next();
     return std::min(walk.unit + 1, (n + size - 1) / size);
+}
+
+/// Where the first full cells of a span are, and how many. Boxes keep all fractions: their walls have marks beside them.
+std::pair<std::uint8_t, std::uint16_t> full_cells(Shape shape, const double* fractions, int n)
+{
+    if (shape == Shape::box) return {0, 0};
+    const double* const begin = std::find(fractions, fractions + n, 1.0);
+    if (begin - fractions > std::numeric_limits<std::uint8_t>::max()) return {0, 0};
+    const double* end = begin;
+    while (end != fractions + n && *end == 1 && end - begin < std::numeric_limits<std::uint16_t>::max()) ++end;
+    return {static_cast<std::uint8_t>(begin - fractions), static_cast<std::uint16_t>(end - begin)};
+}
+
+/// The first n cells of a span; leaves the others, from x = 0 on.
+Piece cut(Piece& span)
+{
+    Piece first = span;
+    const int n = first.n, full = std::clamp<int>(n - span.before, 0, span.full);
+    first.before = static_cast<std::uint8_t>(std::min<int>(span.before, n));
+    first.full = static_cast<std::uint16_t>(full);
+    span.fractions += n - full;
+    span.before -= first.before;
+    span.full -= first.full;
+    span.x0 = 0;
+    return first;
 }
 
 }  // namespace
@@ -225,7 +251,7 @@ void SolidMap::mark_walls()
         solid.bounce.assign(solid.fractions.size(), 0);
         for (std::size_t i = 0; i + 1 < solid.spans.size(); ++i) {
             const Span& span = solid.spans[i];
-            const auto n = static_cast<int>(solid.spans[i + 1].fractions - span.fractions);
+            const auto n = static_cast<int>(solid.spans[i + 1].fractions - span.fractions);  // all stored in a box
             const int y = solid.y0 + static_cast<int>(i) % solid.ny, z = solid.z0 + static_cast<int>(i) / solid.ny;
             for (int x = 0; x < n; ++x)
                 solid.bounce[span.fractions + x] =
@@ -302,10 +328,11 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
             }
             while (begin < end && row[begin] == 0) ++begin;
             while (end > begin && row[end - 1] == 0) --end;
-            solid.spans.push_back({first[0] + begin, static_cast<std::uint32_t>(fractions)});
-            fractions += end - begin;
+            const auto [before, full] = full_cells(geometry.shape, row + begin, end - begin);
+            solid.spans.push_back({first[0] + begin, static_cast<std::uint32_t>(fractions), before, full});
+            fractions += end - begin - full;
         }
-    solid.spans.push_back({0, static_cast<std::uint32_t>(fractions)});
+    solid.spans.push_back({0, static_cast<std::uint32_t>(fractions), 0, 0});
     fractions += kBlock;
     // A solid that moves gets a little more than it needs, and should not ask for memory again.
     const bool moves = !solid.fractions.empty();
@@ -314,8 +341,11 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
     for (int k = 0; k < solid.nz; ++k)
         for (int j = 0; j < solid.ny; ++j) {
             const Span* const span = &solid.spans[static_cast<std::size_t>(k) * solid.ny + j];
-            std::copy_n(fraction.row(j, k) + (span->x0 - first[0]), span[1].fractions - span->fractions,
-                        solid.fractions.data() + span->fractions);
+            const double* const row = fraction.row(j, k) + (span->x0 - first[0]);
+            double* const stored = solid.fractions.data() + span->fractions;
+            const std::size_t count = span[1].fractions - span->fractions;
+            std::copy_n(row, span->before, stored);
+            std::copy(row + span->before + span->full, row + count + span->full, stored + span->before);
         }
     solid.units_y = units_along(solid.y0, solid.ny, n_[1], units_.rows);
     solid.units_z = units_along(solid.z0, solid.nz, n_[2], units_.planes);
@@ -380,7 +410,7 @@ void SolidMap::for_spans(int first_plane, int end_plane, Body body) const
             Walk y(solid.y0, n_[1], units_.rows);
             const Span* const spans = solid.spans.data() + static_cast<std::size_t>(k) * solid.ny;
             for (int j = 0; j < solid.ny; ++j, y.next()) {
-                const auto n = static_cast<std::int32_t>(spans[j + 1].fractions - spans[j].fractions);
+                const auto n = static_cast<std::int32_t>(spans[j + 1].fractions - spans[j].fractions) + spans[j].full;
                 if (n == 0) continue;
                 const int unit = z.unit % solid.units_z * solid.units_y + y.unit % solid.units_y;
                 body(static_cast<std::size_t>(z.cell) * n_[1] + y.cell,
@@ -389,7 +419,9 @@ void SolidMap::for_spans(int first_plane, int end_plane, Body body) const
                            spans[j].x0,
                            n,
                            {0, static_cast<std::int8_t>(y.image), static_cast<std::int8_t>(z.image)},
-                           static_cast<std::uint8_t>(unit)});
+                           static_cast<std::uint8_t>(unit),
+                           spans[j].before,
+                           spans[j].full});
             }
         }
     }
@@ -424,10 +456,8 @@ void SolidMap::list_rows()
         piece.image[0] = static_cast<std::int8_t>(x.image);
         while (rest > 0) {
             piece.n = std::min(rest, n_[0] - piece.x0);
-            pieces_[row_next_[row]++] = piece;
             rest -= piece.n;
-            piece.fractions += piece.n;
-            piece.x0 = 0;
+            pieces_[row_next_[row]++] = cut(piece);
             ++piece.image[0];
         }
     });

@@ -115,6 +115,8 @@ private:
     struct Span {
         std::int32_t x0;          // not wrapped
         std::uint32_t fractions;  // offset; those of the next span follow
+        std::uint8_t before;      // as in a Piece
+        std::uint16_t full;
     };
     struct MappedSolid {
         LatticeSolid solid;

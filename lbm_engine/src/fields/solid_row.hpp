@@ -16,7 +16,7 @@ struct RowSolid {
     const std::uint8_t* bounce;  ///< which of them turn populations round, or null
 };
 
-/// Cells side by side in a row that a solid touches.
+/// Cells side by side in a row that a solid touches. Of its inside, where fractions are 1, most are not stored.
 struct Piece {
     std::int32_t solid;
     std::uint32_t
@@ -24,6 +24,8 @@ struct Piece {
     std::int32_t x0, n;
     std::int8_t image[3];  ///< of the lattice in which these cells lie as the solid's centre sees it
     std::uint8_t unit;     ///< of rows, among those that the solid lies in: which of its sums
+    std::uint8_t before;   ///< cells with fractions before those without
+    std::uint16_t full;    ///< cells without: all 1
 };
 
 /**

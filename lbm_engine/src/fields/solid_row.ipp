@@ -3,20 +3,28 @@
 #include "fields/pack.hpp"
 #include "fields/solid_row.hpp"
 
+#include <algorithm>
+
 namespace lbm::LBM_ISA {
 namespace {
 
 using Cells = Pack<kBlock>;
 constexpr Cells kLanes{0, 1, 2, 3, 4, 5, 6, 7};
 
-/// Calls body(block, eps, at) for the blocks of a row in which n cells from x0 on lie: their fractions, 0 in the others, and how far they are from x0.
+/// Calls body(block, eps, at) for the blocks of a row in which a piece lies: its fractions, 0 in the other cells, and how far these are from its first.
 template <class Body>
-[[gnu::always_inline]] inline void for_blocks(int x0, int n, const double* fractions, Body body)
+[[gnu::always_inline]] inline void for_blocks(const Piece& piece, const double* fractions, Body body)
 {
-    for (int block = x0 / kBlock; block * kBlock < x0 + n; ++block) {
-        const int first = block * kBlock - x0;
-        const Cells zero{}, at = first + kLanes, end = zero + n;
-        Cells eps = load<kBlock>(fractions + first);
+    const Cells zero{}, one = zero + 1.0, end = zero + piece.n;
+    const int full_end = piece.before + piece.full;
+    for (int block = piece.x0 / kBlock; block * kBlock < piece.x0 + piece.n; ++block) {
+        const int first = block * kBlock - piece.x0;
+        const Cells at = first + kLanes;
+        // Where a side of the full cells is out of sight, its fractions are not asked for far from the piece's.
+        const Cells before = load<kBlock>(fractions + std::min<int>(first, piece.before));
+        const Cells after = load<kBlock>(fractions + std::max(first - piece.full, -kBlock));
+        Cells eps = at < zero + full_end ? one : after;
+        eps = at < zero + piece.before ? before : eps;
         eps = at < zero ? zero : eps;
         eps = at < end ? eps : zero;
         body(block, eps, at);
@@ -97,7 +105,7 @@ template <bool fixed>
                 tell(C::kUs + 2, e * (u0[2] - W[1] * at));
             }
         };
-        for_blocks(piece.x0, piece.n, solid.fractions + piece.fractions, say);
+        for_blocks(piece, solid.fractions + piece.fractions, say);
         if (solid.bounce) bounce(cells, piece.x0, piece.n, solid.bounce + piece.fractions);
     }
 }
@@ -139,7 +147,7 @@ template <bool fixed>
                 br2 += w * (rx * rx + ryz2);
             }
         };
-        for_blocks(piece.x0, piece.n, solid.fractions + piece.fractions, hear);
+        for_blocks(piece, solid.fractions + piece.fractions, hear);
         const Cells plain = sums_over_lanes({F[0], F[1], F[2], P[0], P[1], P[2], b, br2});
         const Cells x = sums_over_lanes({xF[0], xF[1], xF[2], xPy, xPz, Cells{}, Cells{}, Cells{}});
         PieceSums& sums = sums_of_pieces[solid.sums + piece.unit];

@@ -16,8 +16,9 @@ void SolidMap::prefetch(std::size_t row) const noexcept
     for (std::uint32_t p = row_begin_[row]; p < row_begin_[row + 1]; ++p) {
         const Piece& piece = pieces_[p];
         const double* const fractions = row_solids_[piece.solid].fractions + piece.fractions;
-        for (int i = 0; i < piece.n; i += kBlock) __builtin_prefetch(fractions + i);
-        __builtin_prefetch(fractions + piece.n);
+        const int stored = piece.n - piece.full;
+        for (int i = 0; i < stored; i += kBlock) __builtin_prefetch(fractions + i);
+        __builtin_prefetch(fractions + stored);
     }
 }
 
