@@ -210,20 +210,22 @@ double median(std::vector<double> values)
  */
 nlohmann::json measure(const BandwidthMeter& meter, Bench* reference, Bench& bench, double seconds)
 {
-    std::vector<double> times, ratios, shares;
+    std::vector<double> times, references, ratios, shares;
     const double begin = now();
     while (now() - begin < seconds || times.size() < 4) {
         const double triad = meter.triad_now();
-        const double before = reference ? reference->slice() : 0;
+        if (reference) references.push_back(reference->slice());
         times.push_back(bench.slice());
-        if (reference) ratios.push_back(before / times.back() * bench.cells() / reference->cells());
+        if (reference) ratios.push_back(references.back() / times.back() * bench.cells() / reference->cells());
         shares.push_back(bench.traffic_of_step() / times.back() / triad);
     }
     nlohmann::json result = bench.result(median(times));
     result["share"] = median(shares);
     if (reference) {
         result["ratio"] = median(ratios);
-        result["ratio_to"] = {{"case", reference->run().name}, {"threads", reference->run().threads}};
+        result["ratio_to"] = {{"case", reference->run().name},
+                              {"threads", reference->run().threads},
+                              {"mlups", reference->cells() / median(references) / 1e6}};
     }
     return result;
 }
@@ -255,7 +257,9 @@ std::string line_of(const nlohmann::json& result)
 {
     const auto number = [&](const char* key) { return result[key].get<double>(); };
     const auto percent = [&](const char* key) { return 100 * result["parts"][key].get<double>(); };
-    const std::string ratio = result.contains("ratio") ? formatted("%5.0f%%", 100 * number("ratio")) : "      ";
+    const std::string ratio = result.contains("ratio") ? formatted("%4.0f%% of %3.0f", 100 * number("ratio"),
+                                                                   result["ratio_to"]["mlups"].get<double>())
+                                                       : std::string(12, ' ');
     return formatted(
         "%-12s %5d %-7s %5.1f %6.1f %8.2f %7.1f %5.0f%% %s  %3.0f%% %3.0f%% %4.0f%% %4.0f%% %4.0f%% %5.2f s",
         result["case"].get<std::string>().c_str(), result["cells"].get<int>(),
@@ -299,7 +303,8 @@ nlohmann::json run_bench(const BenchOptions& options, const std::function<void(c
         const Bandwidth before = meter.best();
         line(formatted("%d thread(s): copy %.1f, triad %.1f, in place %.1f GB/s", threads, before.copy / 1e9,
                        before.triad / 1e9, before.in_place / 1e9));
-        line("case         cells storage     d  MLUPS  ns/cell  B/cell  share  ratio   map exch sweep loads films  "
+        line("case         cells storage     d  MLUPS  ns/cell  B/cell  share         ratio   map exch sweep loads "
+             "films  "
              "ready");
         const auto add = [&](Bench* reference, Bench& bench) {
             part["runs"].push_back(measure(meter, reference, bench, options.seconds));
