@@ -59,7 +59,7 @@ public:
         f_.swap(next_);
     }
 
-    /// Volume of the narrow gaps that count to a solid.
+    /// Volume of fluid in cut cells that counts to a solid.
     double filled(std::size_t solid) const { return filled_[solid]; }
 
     std::size_t cell(int x, int y, int z) const
@@ -81,33 +81,49 @@ private:
         for (std::size_t s = 0; s < solids.size(); ++s) {
             SphereFraction fraction;
             const Vec3& centre = solids[s].position;
-            const double R = solids[s].radius;
-            fraction.evaluate(centre, R);
+            fraction.evaluate(centre, solids[s].radius);
             const auto first = fraction.first(), count = fraction.count();
-            const auto exact = [&](int x, int y, int z) {
-                const int i = x - first[0], j = y - first[1], k = z - first[2];
-                const bool within = i >= 0 && i < count[0] && j >= 0 && j < count[1] && k >= 0 && k < count[2];
-                return within ? fraction.row(j, k)[i] : 0.0;
-            };
-            const auto images = is_fixed(solids[s]) ? images_of_others(solids, s) : std::vector<Image>{};
-            constexpr int kBeside = 2;  // cells around the sphere that may be in its gaps
-            for (int z = first[2] - kBeside; z < first[2] + count[2] + kBeside; ++z)
-                for (int y = first[1] - kBeside; y < first[1] + count[1] + kBeside; ++y)
-                    for (int x = first[0] - kBeside; x < first[0] + count[0] + kBeside; ++x) {
-                        const Vec3 r = Vec3{x + 0.5, y + 0.5, z + 0.5} - centre;
-                        const double epsilon = with_gaps(exact(x, y, z), r, R, images);
+            for (int z = 0; z < count[2]; ++z)
+                for (int y = 0; y < count[1]; ++y)
+                    for (int x = 0; x < count[0]; ++x) {
+                        const double epsilon = fraction.row(y, z)[x];
                         if (epsilon == 0) continue;
-                        std::array<int, 3> at{x, y, z};
+                        std::array<int, 3> at{first[0] + x, first[1] + y, first[2] + z};
+                        const Vec3 r = Vec3{at[0] + 0.5, at[1] + 0.5, at[2] + 0.5} - centre;
                         bool inside = true;
                         for (int d = 0; d < 3; ++d) {
                             if (c_.faces[2 * d].type == FaceType::periodic)
                                 at[d] = (at[d] % c_.cells[d] + c_.cells[d]) % c_.cells[d];
                             else inside = inside && at[d] >= 0 && at[d] < c_.cells[d];
                         }
-                        if (!inside) continue;
-                        shares_[cell(at[0], at[1], at[2])].push_back({s, epsilon, r});
-                        filled_[s] += epsilon - exact(x, y, z);
+                        if (inside) shares_[cell(at[0], at[1], at[2])].push_back({s, epsilon, r});
                     }
+        }
+        thicken(solids);
+    }
+
+    /// Cells that a fixed sphere cuts count more where another one stands opposite.
+    void thicken(const std::vector<Solid>& solids)
+    {
+        std::vector<std::vector<Image>> images;
+        for (std::size_t s = 0; s < solids.size(); ++s)
+            images.push_back(is_fixed(solids[s]) ? images_of_others(solids, s) : std::vector<Image>{});
+        for (auto& shares : shares_) {
+            double fluid = 1;
+            for (const Share& share : shares)
+                if (is_fixed(solids[share.solid])) fluid -= share.epsilon;
+            for (Share& share : shares) {
+                double nearest = 8;
+                for (const Image& other : images[share.solid]) {
+                    const Vec3 r2 = share.r - other.from_me;
+                    if (dot(share.r, r2) >= 0) continue;
+                    nearest = std::min(nearest, norm(share.r) - solids[share.solid].radius + norm(r2) - other.radius);
+                }
+                const double h = std::max(nearest, 0.0);
+                const double more = share.epsilon * std::max(fluid, 0.0) * 4.4 * (1 / (h * h + 12.5) - 1 / (64 + 12.5));
+                share.epsilon += more;
+                filled_[share.solid] += more;
+            }
         }
     }
 
@@ -147,22 +163,6 @@ private:
                 }
             }
         return images;
-    }
-
-    /// The fluid between two spheres counts as fluid by (gap / 1.9)^0.4; each takes the rest on its side of the middle.
-    static double with_gaps(double epsilon, const Vec3& r, double R, const std::vector<Image>& images)
-    {
-        double raised = epsilon;
-        for (const Image& other : images) {
-            const Vec3 r2 = r - other.from_me;
-            const double d1 = norm(r) - R, d2 = norm(r2) - other.radius, gap = d1 + d2;
-            if (dot(r, r2) >= 0 || gap >= 1.9) continue;
-            const double apart = norm(other.from_me), middle = 0.5 * (apart + R - other.radius);
-            const double side = std::clamp(0.5 + middle - dot(r, other.from_me) / apart, 0.0, 1.0);
-            const double open = std::pow(std::max(gap, 0.0) / 1.9, 0.4);
-            raised = std::max(raised, epsilon + (side - epsilon) * (1 - open));
-        }
-        return raised;
     }
 
     void collide_and_push(int x, int y, int z, const std::vector<Solid>& solids)

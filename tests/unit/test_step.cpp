@@ -51,7 +51,7 @@ class Step : public CppUnit::TestFixture {
     CPPUNIT_TEST(agrees_in_one_cell_thick_boxes);
     CPPUNIT_TEST(agrees_wherever_two_kinds_of_face_meet);
     CPPUNIT_TEST(agrees_with_solids_across_periodic_faces_and_sharing_cells);
-    CPPUNIT_TEST(agrees_where_fixed_spheres_leave_narrow_gaps);
+    CPPUNIT_TEST(agrees_where_fixed_spheres_leave_narrow_pores);
     CPPUNIT_TEST(agrees_in_stokes_flow_with_any_magic_parameter);
     CPPUNIT_TEST(single_storage_agrees_to_its_own_round_off);
     CPPUNIT_TEST(any_number_of_threads_gives_the_same_bits);
@@ -240,7 +240,7 @@ class Step : public CppUnit::TestFixture {
         compare(driven({9, 9, 9}, 0.9), wide);
     }
 
-    void agrees_where_fixed_spheres_leave_narrow_gaps()
+    void agrees_where_fixed_spheres_leave_narrow_pores()
     {
         // Between two of them, to images behind periodic faces, and to mirror images behind freeSlip faces.
         auto solids = one_sphere();

@@ -95,12 +95,12 @@ RowUnits::RowUnits(int ny_, int nz_) : ny(ny_), nz(nz_)
 }
 
 SolidMap::SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic,
-                   const std::array<bool, 6>& mirrors, const Weighting& weighting, bool fill_gaps)
+                   const std::array<bool, 6>& mirrors, const Weighting& weighting, bool thicken)
     : n_(cells)
     , periodic_(periodic)
     , mirrors_(mirrors)
     , weighting_(weighting)
-    , fill_gaps_(fill_gaps)
+    , thicken_(thicken)
     , units_(cells[1], cells[2])
     , neighbours_(cells, periodic)
     , row_begin_(static_cast<std::size_t>(cells[1]) * cells[2] + 1, 0)
@@ -130,25 +130,35 @@ void SolidMap::search_near(const std::vector<LatticeSolid>& solids)
         centres_.push_back(solid.geometry.centre);
         if (solid.geometry.shape == Shape::sphere) largest = std::max(largest, solid.geometry.radius);
     }
-    neighbours_.sort(centres_, 2 * largest + kNarrowGap);
+    neighbours_.sort(centres_, 2 * largest + kWidestPore);
 }
 
-/// Fixed spheres of other bodies, images and mirror images that leave a narrow gap to a fixed sphere.
+/// Whether a point is nearer than its periodic images: of a rigid body, then, the member and not its image.
+bool SolidMap::is_nearest(const Vec3& image, const Vec3& to) const
+{
+    for (int d = 0; d < 3; ++d)
+        if (periodic_[d] && 2 * std::abs(image[d] - to[d]) > n_[d]) return false;
+    return true;
+}
+
+/// Fixed spheres of other bodies, images and mirror images that leave a narrow pore to a fixed sphere.
 void SolidMap::find_near(std::size_t solid, const std::vector<LatticeSolid>& solids,
                          std::vector<NearSphere>& near) const
 {
     near.clear();
     const LatticeSolid& one = solids[solid];
-    if (!fill_gaps_ || one.geometry.shape != Shape::sphere || !one.fixed) return;
+    if (!thicken_ || one.geometry.shape != Shape::sphere || !one.fixed) return;
     const auto add = [&](const NearSphere& image) {
         const Vec3 apart = image.centre - one.geometry.centre;
-        const double reach = one.geometry.radius + image.radius + kNarrowGap;
-        if (dot(apart, apart) < reach * reach) near.push_back(image);
+        const double reach = one.geometry.radius + image.radius + kWidestPore;
+        if (dot(apart, apart) < reach * reach && std::find(near.begin(), near.end(), image) == near.end())
+            near.push_back(image);  // members of a body may coincide
     };
     const auto add_mirrored = [&](NearSphere image) {
         for (int face = 0; face < 6; ++face) {
             if (!mirrors_[face]) continue;
             NearSphere mirrored = image;
+            mirrored.mirrored = true;
             mirrored.centre[face / 2] = (face % 2 == 0 ? 0 : 2 * n_[face / 2]) - image.centre[face / 2];
             add(mirrored);
         }
@@ -156,8 +166,9 @@ void SolidMap::find_near(std::size_t solid, const std::vector<LatticeSolid>& sol
     add_mirrored({one.geometry.centre, one.geometry.radius});
     neighbours_.for_near(static_cast<std::int32_t>(solid), [&](std::int32_t other, const Vec3& shift) {
         const LatticeSolid& two = solids[other];
-        if (two.geometry.shape != Shape::sphere || !two.fixed || (one.body >= 0 && one.body == two.body)) return;
+        if (two.geometry.shape != Shape::sphere || !two.fixed) return;
         const NearSphere image{two.geometry.centre + shift, two.geometry.radius};
+        if (one.body >= 0 && one.body == two.body && is_nearest(image.centre, one.geometry.centre)) return;
         add(image);
         add_mirrored(image);
     });
@@ -197,8 +208,8 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
     }
 
     // Who is near whom changes with fixed spheres only.
-    bool search = fill_gaps_ && !same_set;
-    for (std::ptrdiff_t s = 0; s < count && fill_gaps_ && !search; ++s)
+    bool search = thicken_ && !same_set;
+    for (std::ptrdiff_t s = 0; s < count && thicken_ && !search; ++s)
         search = solids_[s].solid.fixed != solids[s].fixed || (solids[s].fixed && moved_[s]);
     if (search) search_near(solids);
     bool spans_changed = !same_set;
@@ -305,7 +316,7 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
     solid.filled = 0;
     if (!solid.near.empty()) {
         const double before = covered(fraction);
-        fraction.fill_gaps(geometry, solid.near);
+        fraction.thicken(geometry, solid.near);
         solid.filled = covered(fraction) - before;
     }
     const auto& first = fraction.first();

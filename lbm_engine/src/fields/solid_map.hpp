@@ -75,16 +75,16 @@ public:
     /**
      * @param periodic   for each axis
      * @param mirrors    faces behind which a sphere sees its mirror image
-     * @param fill_gaps  whether narrow gaps between fixed spheres count as partly filled (SolidFraction::fill_gaps)
+     * @param thicken  whether cells cut by a fixed sphere count as more solid opposite other fixed spheres (SolidFraction::thicken)
      */
     SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const std::array<bool, 6>& mirrors,
-             const Weighting& weighting, bool fill_gaps);
+             const Weighting& weighting, bool thicken);
 
     std::size_t size() const noexcept { return solids_.size(); }
     const LatticeSolid& solid(std::size_t s) const noexcept { return solids_[s].solid; }
     /// Inside the lattice; what a solid shares with earlier ones of its body is theirs.
     double volume(std::size_t s) const noexcept { return solids_[s].volume; }
-    /// Fluid in narrow gaps that counts to the solid: it takes the drive's part of it.
+    /// Fluid in cut cells that counts to the solid: it takes the drive's part of it.
     double filled(std::size_t s) const noexcept { return solids_[s].filled; }
     const RowUnits& units() const noexcept { return units_; }
 
@@ -123,7 +123,7 @@ private:
         double k = 0, volume = 0, filled = 0;
         int y0 = 0, ny = 0, z0 = 0, nz = 0;  // rows, not wrapped
         int units_y = 0, units_z = 0;        // of rows, that they lie in; at most all
-        std::vector<NearSphere> near;        // that leave a narrow gap
+        std::vector<NearSphere> near;        // that leave a narrow pore
         std::vector<Span> spans;             // ny * nz, and an end
         std::vector<double> fractions;       // a block of padding before and after those of the spans
         bool whole_cells = false;
@@ -135,6 +135,7 @@ private:
     bool is_wall_cell(const LatticeSolid& own, const std::vector<const LatticeSolid*>& boxes,
                       const std::array<int, 3>& cell) const;
     void search_near(const std::vector<LatticeSolid>& solids);
+    bool is_nearest(const Vec3& image, const Vec3& to) const;
     void find_near(std::size_t solid, const std::vector<LatticeSolid>& solids, std::vector<NearSphere>& near) const;
     void map(MappedSolid& solid, SolidFraction& fraction, const std::vector<SolidGeometry>& others) const;
     void measure(MappedSolid& solid, const SolidFraction& fraction, bool lone_sphere) const;
@@ -155,7 +156,7 @@ private:
     std::array<bool, 3> periodic_;
     std::array<bool, 6> mirrors_;
     Weighting weighting_;
-    bool fill_gaps_;
+    bool thicken_;
     RowUnits units_;
     std::vector<MappedSolid> solids_;
     Neighbours neighbours_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lbm {
 namespace {
@@ -145,69 +146,66 @@ void SolidFraction::evaluate(const SolidGeometry& solid, const std::vector<Solid
     if (!others.empty()) leave_out(solid, others);
 }
 
-double passage(double gap) { return gap < kNarrowGap ? std::pow(std::max(gap, 0.0) / kNarrowGap, 0.4) : 1; }
-
-void SolidFraction::fill_gaps(const SolidGeometry& sphere, const std::vector<NearSphere>& near)
+double thickening(double pore)
 {
-    raised_.clear();
-    std::array<int, 3> low = first_, high{};
-    for (int d = 0; d < 3; ++d) high[d] = first_[d] + count_[d];
-    const double reach = sphere.radius + 0.5 * (kNarrowGap + 1);  // of its side of a gap
-    for (const NearSphere& other : near) {
-        const Vec3 apart = other.centre - sphere.centre;
-        const double distance = norm(apart);
-        if (distance == 0) continue;
-        const double middle = 0.5 * (distance + sphere.radius - other.radius);
-        std::array<int, 3> begin, end;
-        for (int d = 0; d < 3; ++d) {
-            const double r = other.radius + kNarrowGap + 1;
-            begin[d] = static_cast<int>(std::floor(sphere.centre[d] + std::max(-reach, apart[d] - r)));
-            end[d] = static_cast<int>(std::ceil(sphere.centre[d] + std::min(reach, apart[d] + r)));
-        }
-        for (int z = begin[2]; z < end[2]; ++z)
-            for (int y = begin[1]; y < end[1]; ++y)
-                for (int x = begin[0]; x < end[0]; ++x) {
-                    const Vec3 cell{x + 0.5, y + 0.5, z + 0.5};
-                    const Vec3 r1 = cell - sphere.centre, r2 = cell - other.centre;
-                    if (dot(r1, r2) >= 0) continue;  // not between the two
-                    const double d1 = norm(r1) - sphere.radius, d2 = norm(r2) - other.radius;
-                    const double side = std::clamp(0.5 + middle - dot(r1, apart) / distance, 0.0, 1.0);
-                    const double closed = 1 - passage(d1 + d2);
-                    if (closed == 0 || side == 0) continue;
-                    const bool known = x >= first_[0] && x < first_[0] + count_[0] && y >= first_[1] &&
-                                       y < first_[1] + count_[1] && z >= first_[2] && z < first_[2] + count_[2];
-                    const double fraction = known ? row(y - first_[1], z - first_[2])[x - first_[0]] : 0;
-                    if (side <= fraction) continue;
-                    raised_.push_back({{x, y, z}, fraction + (side - fraction) * closed});
-                    for (int d = 0; d < 3; ++d) {
-                        low[d] = std::min(low[d], raised_.back().cell[d]);
-                        high[d] = std::max(high[d], raised_.back().cell[d] + 1);
-                    }
+    const auto curve = [](double h) { return 4.4 / (h * h + 12.5); };
+    return pore < kWidestPore ? curve(std::max(pore, 0.0)) - curve(kWidestPore) : 0;
+}
+
+void SolidFraction::thicken(const SolidGeometry& sphere, const std::vector<NearSphere>& near)
+{
+    make_own();
+    add_others(sphere, near);
+    for (int k = 0; k < count_[2]; ++k)
+        for (int j = 0; j < count_[1]; ++j) {
+            double* const fraction = own_row(j, k);
+            const double* const others = others_.data() + (fraction - own_.data());
+            for (int i = 0; i < count_[0]; ++i) {
+                const double fluid = 1 - fraction[i] - others[i];
+                if (fraction[i] == 0 || fluid <= 0) continue;
+                const Vec3 cell{first_[0] + i + 0.5, first_[1] + j + 0.5, first_[2] + k + 0.5};
+                const Vec3 r = cell - sphere.centre;
+                double opposite = std::numeric_limits<double>::infinity();
+                for (const NearSphere& other : near) {
+                    const Vec3 r2 = cell - other.centre;
+                    if (dot(r, r2) < 0) opposite = std::min(opposite, norm(r2) - other.radius);
                 }
-    }
-    if (raised_.empty()) return;
-    enlarge(low, {high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-    for (const Raised& cell : raised_) {
-        double& fraction = own_row(cell.cell[1] - low[1], cell.cell[2] - low[2])[cell.cell[0] - low[0]];
-        fraction = std::max(fraction, cell.fraction);
+                fraction[i] *= 1 + thickening(norm(r) - sphere.radius + opposite) * fluid;
+            }
+        }
+}
+
+/// Collects what other spheres cover of the cells of this one.
+void SolidFraction::add_others(const SolidGeometry& sphere, const std::vector<NearSphere>& near)
+{
+    constexpr double kDiagonal = 1.75;  // of a cell, and a hair more
+    others_.assign(own_.size(), 0.0);
+    for (const NearSphere& other : near) {
+        if (other.mirrored || norm(other.centre - sphere.centre) > sphere.radius + other.radius + kDiagonal) continue;
+        std::array<int, 3> begin, end;
+        bool shares = true;
+        for (int d = 0; d < 3; ++d) {
+            begin[d] = std::max(first_[d], static_cast<int>(std::floor(other.centre[d] - other.radius)));
+            end[d] = std::min(first_[d] + count_[d], static_cast<int>(std::ceil(other.centre[d] + other.radius)));
+            shares = shares && begin[d] < end[d];
+        }
+        if (!shares) continue;
+        other_.evaluate(other.centre, other.radius);
+        const auto& first = other_.first();
+        for (int z = begin[2]; z < end[2]; ++z)
+            for (int y = begin[1]; y < end[1]; ++y) {
+                const double* const row = other_.row(y - first[1], z - first[2]);
+                double* const sum = others_.data() + (own_row(y - first_[1], z - first_[2]) - own_.data());
+                for (int x = begin[0]; x < end[0]; ++x) sum[x - first_[0]] += row[x - first[0]];
+            }
     }
 }
 
-/// Moves the fractions into a box of cells that contains theirs.
-void SolidFraction::enlarge(const std::array<int, 3>& first, const std::array<int, 3>& count)
+void SolidFraction::make_own()
 {
-    larger_.assign(static_cast<std::size_t>(count[0]) * count[1] * count[2], 0.0);
-    for (int k = 0; k < count_[2]; ++k)
-        for (int j = 0; j < count_[1]; ++j) {
-            const std::size_t to =
-                static_cast<std::size_t>(first_[2] + k - first[2]) * count[1] + (first_[1] + j - first[1]);
-            std::copy_n(row(j, k), count_[0], larger_.data() + to * count[0] + (first_[0] - first[0]));
-        }
-    own_.swap(larger_);
+    if (data_ == own_.data()) return;
+    own_.assign(data_, data_ + line_ * count_[1] * count_[2]);
     data_ = own_.data();
-    first_ = first;
-    count_ = count;
-    line_ = count[0];
 }
 
 void SolidFraction::sphere(const SolidGeometry& solid)
@@ -313,10 +311,7 @@ SolidGeometry SolidFraction::nearest_image(const SolidGeometry& other, const Vec
  */
 void SolidFraction::leave_out(const SolidGeometry& solid, const std::vector<SolidGeometry>& others)
 {
-    if (data_ != own_.data()) {
-        own_.assign(data_, data_ + line_ * count_[1] * count_[2]);
-        data_ = own_.data();
-    }
+    make_own();
     std::vector<SolidGeometry> near;
     for (const SolidGeometry& other : others) near.push_back(nearest_image(other, solid.centre));
     std::vector<Interval> hidden;

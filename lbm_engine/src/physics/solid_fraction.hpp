@@ -24,18 +24,21 @@ struct SolidGeometry {
 struct NearSphere {
     Vec3 centre{};
     double radius = 0;
+    bool mirrored = false;  ///< behind a face of the lattice: none of its volume is in cells of the lattice
     bool operator==(const NearSphere&) const = default;
 };
 
 /**
- * How much of the fluid in a gap between two spheres counts as fluid. In a gap of less than about two cells the lattice lets too much through, since no cell sees both surfaces for what they are.
- * Counting the fluid of width `gap` as `passage` times itself gives narrow gaps the permeability gap^2 / 12, wherever they lie in their cells (docs/physics.md).
+ * By how much more a cell that a sphere cuts counts as solid where another sphere stands opposite: eps (1 + thickening(h) m) instead of eps.
  *
- * @param gap  [cells]
- * @return 0 at contact, 1 from kNarrowGap on
+ * A pressure gradient drives flow through cut cells, too much by a volume that does not depend on the width h of the pore; against the flow of the pore, h^3 / 12, this is an error of the
+ * order of 1 / h^3, or surfaces that stand apart by 1 / h^2 too much. Constants are fitted on dense cubic arrays (docs/physics.md, "Narrow pores").
+ *
+ * @param pore  h, the sum of the distances of the cell's centre from both surfaces [cells]
+ * @return between 0.29 at contact and 0 from kWidestPore on
  */
-inline constexpr double kNarrowGap = 1.9;
-[[nodiscard]] double passage(double gap);
+inline constexpr double kWidestPore = 8;
+[[nodiscard]] double thickening(double pore);
 
 /**
  * Solid fractions of the cells that a solid touches, inside a lattice.
@@ -55,11 +58,8 @@ public:
      */
     void evaluate(const SolidGeometry& solid, const std::vector<SolidGeometry>& others = {});
 
-    /**
-     * Raises the fractions of a sphere that was evaluated where others are near: each of two spheres takes from the fluid between them what lies on its side of the
-     * middle, as far as it does not count as fluid (passage).
-     */
-    void fill_gaps(const SolidGeometry& sphere, const std::vector<NearSphere>& near);
+    /// Raises the fractions of cut cells of a sphere that was evaluated where other spheres stand opposite (thickening).
+    void thicken(const SolidGeometry& sphere, const std::vector<NearSphere>& near);
 
     const std::array<int, 3>& first() const noexcept { return first_; }  ///< lowest cell
     const std::array<int, 3>& count() const noexcept { return count_; }  ///< cells
@@ -75,7 +75,8 @@ private:
     void pipe(const SolidGeometry& solid);
     void leave_out(const SolidGeometry& solid, const std::vector<SolidGeometry>& others);
     void bounds(const Vec3& centre, const Vec3& half);
-    void enlarge(const std::array<int, 3>& first, const std::array<int, 3>& count);
+    void make_own();
+    void add_others(const SolidGeometry& sphere, const std::vector<NearSphere>& near);
     SolidGeometry nearest_image(const SolidGeometry& other, const Vec3& centre) const;
     double* own_row(int j, int k) noexcept
     {
@@ -88,13 +89,9 @@ private:
     const double* data_ = nullptr;
     std::size_t line_ = 0;  // between rows
     SphereFraction sphere_;
-    std::vector<double> own_;  // fractions that are not a lone sphere's
-    struct Raised {
-        std::array<int, 3> cell;
-        double fraction;
-    };
-    std::vector<Raised> raised_;               // while filling gaps
-    std::vector<double> larger_;               // while moving into a larger box
+    std::vector<double> own_;                  // fractions that are not a lone sphere's
+    SphereFraction other_;                     // while thickening
+    std::vector<double> others_;               // what the others cover of the cells, line by line as own_
     std::array<std::vector<double>, 3> axis_;  // while evaluating a box along the axes
 };
 
