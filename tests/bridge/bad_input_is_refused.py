@@ -1,5 +1,7 @@
+import contextlib
 import math
-
+import os
+import sys
 import tempfile
 
 from claims import *
@@ -284,12 +286,40 @@ def stiff_contacts_are_warned_about():
 
 
 def what_is_likely_not_meant_is_said():
+    """By the plan, and once when a fluid begins."""
     fluid = one_sphere(gravity=(0, 0, -9.81), boundary=PERIODIC)
-    O.engines = O.engines[:4] + [NewtonIntegrator(gravity=(0, 0, -9.8))]
+    O.engines = O.engines[:4] + [
+        GlobalStiffnessTimeStepper(active=False, defaultDt=O.dt),
+        NewtonIntegrator(gravity=(0, 0, -9.8)),
+    ]
     plan = fluid.plan()
-    for text in ("damping = 0.2", "-9.8) and LbmEngine.gravity = (0, 0, -9.81) differ", "is periodic and"):
+    with tempfile.TemporaryFile() as said, standard_error_to(said):
+        O.run(2, True)
+        O.run(2, True)
+        said.seek(0)
+        printed = said.read().decode()
+    for text in (
+        "damping = 0.2",
+        "-9.8) and LbmEngine.gravity = (0, 0, -9.81) differ",
+        "is periodic and",
+        "GlobalStiffnessTimeStepper stands behind LbmEngine",
+    ):
         check(any(text in warning for warning in plan.warnings), "no warning says %r: %s" % (text, plan.warnings))
         check(text in str(plan), "report does not say %r" % text)
+        check(printed.count(text) == 1, "printed %d times: %r" % (printed.count(text), text))
+
+
+@contextlib.contextmanager
+def standard_error_to(file):
+    """What C++ writes there too."""
+    sys.stderr.flush()
+    kept = os.dup(2)
+    os.dup2(file.fileno(), 2)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
 
 
 prove(

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <thread>
 
 namespace yadelbm {
@@ -44,7 +45,7 @@ LbmEngine::~LbmEngine() = default;
 void LbmEngine::action()
 {
     try {
-        if (!fluid_) ask_for_lubrication_law();
+        if (!fluid_) ask_python();
         advance();
     } catch (...) {
         // O.run(n, True) starts the thread of this step and then waits for it; if the step has failed before the wait
@@ -55,14 +56,18 @@ void LbmEngine::action()
 }
 
 /// Before the lock is taken: queries hold the interpreter while they wait for the lock.
-void LbmEngine::ask_for_lubrication_law()
+void LbmEngine::ask_python()
 {
+    asked_ = {};
     const PyGILState_STATE interpreter = PyGILState_Ensure();
     try {
-        lubrication_law_ = lubrication_law(*scene);
+        std::vector<lbm::Solid> solids;
+        read_solids(*scene, {settings_.mask, settings_.ids}, 0, solids);
+        asked_.lubrication_law = lubrication_law(*scene);
+        asked_.contact_frequency = contact_frequency(*scene, solids);
+        asked_.warnings = scene_warnings(*scene, settings_);
     } catch (const boost::python::error_already_set&) {
         PyErr_Clear();
-        lubrication_law_.clear();
     }
     PyGILState_Release(interpreter);
 }
@@ -122,8 +127,13 @@ void LbmEngine::start()
     started_in_ = scene;
     read_solids(*scene, {settings_.mask, settings_.ids}, 0, solids_);
     check_scene(*scene, settings_, solids_);
-    check_lubrication(settings_, lubrication_law_);
-    const lbm::Plan plan = lbm::plan_time_step(plan_request(*scene, settings_, solids_));
+    check_lubrication(settings_, asked_.lubrication_law);
+    lbm::PlanRequest request = plan_request(*scene, settings_, solids_);
+    request.contact_frequency = asked_.contact_frequency;
+    const lbm::Plan plan = lbm::plan_time_step(request);
+    std::vector<std::string> warnings = plan.warnings;
+    warnings.insert(warnings.end(), asked_.warnings.begin(), asked_.warnings.end());
+    for (const std::string& warning : warnings) std::cerr << "LbmEngine: warning: " << warning << '\n';
     auto fluid = std::make_unique<lbm::Fluid>(fluid_config(settings_, plan.tau, std::max(0, ompThreads)));
     schedule_ = Schedule(scene->dt, fluid->dt());
     fluid_ = std::move(fluid);

@@ -85,7 +85,7 @@ public:
 private:
     enum Part { kStatesIn, kMap, kExchange, kCollideStream, kLoads, kLoadsOut, kFilms, kParts };
 
-    void ask_for_lubrication_law();
+    void ask_python();
     void advance();
     void start();
     void forget();
@@ -116,9 +116,14 @@ private:
     const yade::Scene* started_in_ = nullptr;
     long last_iter_ = -1;  // of the scene, at the last action
     double last_time_ = 0;
-    std::string lubrication_law_;  // of the scene, when the fluid began
-    std::string failure_;          // why the fluid cannot go on; empty: it can
-    mutable std::mutex mutex_;     // YADE runs steps in a thread of their own while Python may ask
+    struct Asked {
+        std::string lubrication_law;
+        double contact_frequency = 0;
+        std::vector<std::string> warnings;
+    };
+    Asked asked_;               // of the scene, when the fluid began
+    std::string failure_;       // why the fluid cannot go on; empty: it can
+    mutable std::mutex mutex_;  // YADE runs steps in a thread of their own while Python may ask
 };
 
 }  // namespace yadelbm

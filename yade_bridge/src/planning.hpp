@@ -45,14 +45,14 @@ void check_lubrication(const Settings& settings, const std::string& law);
 
 /**
  * What in the scene is likely not meant, each a sentence: damping, another gravity, contacts that do not cross a periodic
- * face. Asks YADE's Python objects: to be called from Python only.
+ * face, a time stepper behind the fluid. Asks Python: the interpreter must be held.
  */
 std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& settings);
 
 /**
  * Frequency sqrt(k / m) of the stiffest contact [rad/s]: of those that there are, else of two equal spheres, from Young's moduli and radii
- * (k = young R, as Ip2_FrictMat_FrictMat_FrictPhys has it); 0 where neither is known. Asks YADE's Python objects: to be
- * called from Python only.
+ * (k = young R, as Ip2_FrictMat_FrictMat_FrictPhys has it); 0 where neither is known. Asks Python: the
+ * interpreter must be held.
  */
 double contact_frequency(const yade::Scene& scene, const std::vector<lbm::Solid>& solids);
 

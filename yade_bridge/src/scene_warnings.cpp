@@ -107,9 +107,16 @@ void check_lubrication(const Settings& s, const std::string& law)
 std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& s)
 {
     std::vector<std::string> warnings;
+    bool behind_fluid = false;
     for (const auto& other : scene.engines) {
         if (!other) continue;
-        if (other->getClassName() == "NewtonIntegrator") warn_about_integrator(bp::object(other), s, warnings);
+        const std::string name = other->getClassName();
+        if (name == "NewtonIntegrator") warn_about_integrator(bp::object(other), s, warnings);
+        if (name.ends_with("TimeStepper") && behind_fluid && s.lubrication)
+            warnings.emplace_back(
+                name + " stands behind LbmEngine: where it lengthens O.dt, films push too hard for that step; "
+                       "put it before.");
+        behind_fluid = behind_fluid || dynamic_cast<const LbmEngine*>(other.get());
     }
     const bool periodic_fluid = std::find(s.boundary.begin(), s.boundary.end(), "periodic") != s.boundary.end();
     if (periodic_fluid && !scene.isPeriodic)

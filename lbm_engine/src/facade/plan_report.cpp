@@ -83,9 +83,6 @@ std::vector<std::string> warnings(const PlanRequest& r, const Plan& p)
                               cells / std::sqrt(p.reynolds), " cells thick: its drag is some ", 100 * error,
                               " % too high; dx <= ", r.dx * std::sqrt(kWantedResolutionError / error),
                               " m would keep that below ", 100 * kWantedResolutionError, " %"));
-    if (p.tau > 1 && p.cells_per_diameter > 0)
-        all.push_back(message("tau = ", p.tau, ": steady loads do not depend on it, but transients shorter than ",
-                              p.shortest_transient, " s are not resolved"));
     if (p.mach > 0.1 && p.mach <= r.max_mach)
         all.push_back(message("Mach number ", p.mach, ": compressibility changes the density by about ",
                               100 * p.compressibility_error, " %"));
