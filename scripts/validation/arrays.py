@@ -133,9 +133,8 @@ Error of the drag, mean ± half range over the offsets, and the slope of the wor
 {convergence(results)}
 
 The constants of the scheme were fitted on the simple cubic array with c = 0.125, so errors of dilute arrays are small by
-construction and change sign; a slope through them means little. Dense arrays were not fitted with them. Gaps of less than two cells count as partly filled (docs/physics.md, "Narrow gaps"), whose
-two constants were fitted at c = 0.3 to 0.65; what is left at c = 0.4 and 0.5 comes from pores of three to six cells, through which a pressure gradient drives a few per cent too much, and falls with the square of the
-cell size and faster. Cubes of more than 48 cells were run with two offsets, smaller ones with eight.
+construction and change sign; a slope through them means little. In narrow pores cut cells count more (docs/physics.md, "Narrow pores"), with two constants that were fitted on arrays of c = 0.125 to
+0.68 at 8 to 30 cells per diameter; what is left changes sign with the resolution and the array. Cubes of more than 48 cells were run with two offsets, smaller ones with eight.
 """
 
 

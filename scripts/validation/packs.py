@@ -73,7 +73,7 @@ Our mean against three published correlations, which differ among themselves by 
 {table(("c", "K", "van der Hoef 2005", "Hill, Koch & Ladd 2001", "Tenneti 2011"), lines)}
 
 Packs of {COUNT} spheres differ among each other, and one pack from axis to axis, by up to ten per cent (scatter is half the range over packs), so the comparison with a correlation says no more than that; the resolution is judged by the grid study, one pack on
-ever finer grids. In these packs most neighbours nearly touch; gaps narrower than two cells count as partly filled (docs/physics.md, "Narrow gaps").
+ever finer grids. In these packs most neighbours nearly touch; cut cells count more there (docs/physics.md, "Narrow pores").
 """
 
 
