@@ -13,7 +13,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <thread>
 
 namespace yadelbm {
@@ -45,8 +44,10 @@ LbmEngine::~LbmEngine() = default;
 void LbmEngine::action()
 {
     try {
-        if (!fluid_) ask_python();
+        const bool begins = this->begins();
+        if (begins) ask_python();
         advance();
+        if (begins) warn();
     } catch (...) {
         // O.run(n, True) starts the thread of this step and then waits for it; if the step has failed before the wait
         // begins, YADE overlooks the error and returns as if all were well
@@ -54,6 +55,9 @@ void LbmEngine::action()
         throw;
     }
 }
+
+/// In the first step, after O.reset, and in another scene.
+bool LbmEngine::begins() const { return !fluid_ || started_in_ != scene || scene->iter < last_iter_; }
 
 /// Before the lock is taken: queries hold the interpreter while they wait for the lock.
 void LbmEngine::ask_python()
@@ -72,11 +76,24 @@ void LbmEngine::ask_python()
     PyGILState_Release(interpreter);
 }
 
+/// As Python's warnings, which users can filter.
+void LbmEngine::warn()
+{
+    std::string refused;
+    const PyGILState_STATE interpreter = PyGILState_Ensure();
+    for (const std::string& warning : asked_.warnings)
+        if (PyErr_WarnEx(PyExc_RuntimeWarning, ("LbmEngine: " + warning).c_str(), 1) != 0) {
+            PyErr_Clear();
+            refused = warning;
+        }
+    PyGILState_Release(interpreter);
+    if (!refused.empty()) throw lbm::RunError("LbmEngine: " + refused);  // a filter makes warnings errors
+}
+
 void LbmEngine::advance()
 {
     const std::lock_guard lock(mutex_);
-    if (fluid_ && (started_in_ != scene || scene->iter < last_iter_))
-        forget();  // O.reset, and the engine in another scene
+    if (fluid_ && begins()) forget();
     if (!failure_.empty())
         throw lbm::RunError("LbmEngine: the fluid stopped earlier and is lost: " + failure_ +
                             "; put a new LbmEngine, which starts from rest, into O.engines");
@@ -131,9 +148,7 @@ void LbmEngine::start()
     lbm::PlanRequest request = plan_request(*scene, settings_, solids_);
     request.contact_frequency = asked_.contact_frequency;
     const lbm::Plan plan = lbm::plan_time_step(request);
-    std::vector<std::string> warnings = plan.warnings;
-    warnings.insert(warnings.end(), asked_.warnings.begin(), asked_.warnings.end());
-    for (const std::string& warning : warnings) std::cerr << "LbmEngine: warning: " << warning << '\n';
+    asked_.warnings.insert(asked_.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
     auto fluid = std::make_unique<lbm::Fluid>(fluid_config(settings_, plan.tau, std::max(0, ompThreads)));
     schedule_ = Schedule(scene->dt, fluid->dt());
     fluid_ = std::move(fluid);

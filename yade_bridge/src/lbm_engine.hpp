@@ -85,7 +85,9 @@ public:
 private:
     enum Part { kStatesIn, kMap, kExchange, kCollideStream, kLoads, kLoadsOut, kFilms, kParts };
 
+    bool begins() const;
     void ask_python();
+    void warn();
     void advance();
     void start();
     void forget();
