@@ -120,7 +120,7 @@ private:
                     nearest = std::min(nearest, norm(share.r) - solids[share.solid].radius + norm(r2) - other.radius);
                 }
                 const double h = std::max(nearest, 0.0);
-                const double more = share.epsilon * std::max(fluid, 0.0) * 4.4 * (1 / (h * h + 12.5) - 1 / (64 + 12.5));
+                const double more = share.epsilon * std::max(fluid, 0.0) * 3.45 * (1 / (h * h + 7.3) - 1 / (64 + 7.3));
                 share.epsilon += more;
                 filled_[share.solid] += more;
             }

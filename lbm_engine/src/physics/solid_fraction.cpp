@@ -148,7 +148,7 @@ void SolidFraction::evaluate(const SolidGeometry& solid, const std::vector<Solid
 
 double thickening(double pore)
 {
-    const auto curve = [](double h) { return 4.4 / (h * h + 12.5); };
+    const auto curve = [](double h) { return 3.45 / (h * h + 7.3); };
     return pore < kWidestPore ? curve(std::max(pore, 0.0)) - curve(kWidestPore) : 0;
 }
 

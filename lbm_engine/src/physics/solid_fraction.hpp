@@ -35,7 +35,7 @@ struct NearSphere {
  * order of 1 / h^3, or surfaces that stand apart by 1 / h^2 too much. Constants are fitted on dense cubic arrays (docs/physics.md, "Narrow pores").
  *
  * @param pore  h, the sum of the distances of the cell's centre from both surfaces [cells]
- * @return between 0.29 at contact and 0 from kWidestPore on
+ * @return between 0.42 at contact and 0 from kWidestPore on
  */
 inline constexpr double kWidestPore = 8;
 [[nodiscard]] double thickening(double pore);
