@@ -134,7 +134,7 @@ Error of the drag, mean ± half range over the offsets, and the slope of the wor
 
 The constants of the scheme were fitted on the simple cubic array with c = 0.125, so errors of dilute arrays are small by
 construction and change sign; a slope through them means little. In narrow pores cut cells count more (docs/physics.md, "Narrow pores"), with two constants that were fitted on arrays of c = 0.125 to
-0.68 at 8 to 30 cells per diameter; what is left changes sign with the resolution and the array. Cubes of more than 48 cells were run with two offsets, smaller ones with eight.
+0.68 at 8 to 30 cells per diameter and a random pack; what is left changes sign with the resolution and the array. Cubes of more than 48 cells were run with two offsets, smaller ones with eight.
 """
 
 
