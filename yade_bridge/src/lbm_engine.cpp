@@ -23,6 +23,18 @@ constexpr const char* kPartNames[] = {"states in", "map", "exchange", "collide-s
 /// Ratio of the planned to the present time step of the fluid from which on it is changed.
 constexpr double kPoorFit = 1.25;
 
+/// Holds Python's interpreter, from any thread.
+class Interpreter {
+public:
+    Interpreter() = default;
+    ~Interpreter() { PyGILState_Release(state_); }
+    Interpreter(const Interpreter&) = delete;
+    Interpreter& operator=(const Interpreter&) = delete;
+
+private:
+    PyGILState_STATE state_ = PyGILState_Ensure();
+};
+
 class Stopwatch {
 public:
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -63,7 +75,7 @@ bool LbmEngine::begins() const { return !fluid_ || started_in_ != scene || scene
 void LbmEngine::ask_python()
 {
     asked_ = {};
-    const PyGILState_STATE interpreter = PyGILState_Ensure();
+    const Interpreter held;
     try {
         std::vector<lbm::Solid> solids;
         read_solids(*scene, {settings_.mask, settings_.ids}, 0, solids);
@@ -73,21 +85,18 @@ void LbmEngine::ask_python()
     } catch (const boost::python::error_already_set&) {
         PyErr_Clear();
     }
-    PyGILState_Release(interpreter);
 }
 
 /// As Python's warnings, which users can filter.
 void LbmEngine::warn()
 {
-    std::string refused;
-    const PyGILState_STATE interpreter = PyGILState_Ensure();
-    for (const std::string& warning : asked_.warnings)
-        if (PyErr_WarnEx(PyExc_RuntimeWarning, ("LbmEngine: " + warning).c_str(), 1) != 0) {
-            PyErr_Clear();
-            refused = warning;
-        }
-    PyGILState_Release(interpreter);
-    if (!refused.empty()) throw lbm::RunError("LbmEngine: " + refused);  // a filter makes warnings errors
+    const Interpreter held;
+    for (const std::string& warning : asked_.warnings) {
+        const std::string said = "LbmEngine: " + warning;
+        if (PyErr_WarnEx(PyExc_RuntimeWarning, said.c_str(), 1) == 0) continue;
+        PyErr_Clear();  // a filter makes warnings errors
+        throw lbm::RunError(said);
+    }
 }
 
 void LbmEngine::advance()

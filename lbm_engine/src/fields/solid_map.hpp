@@ -73,9 +73,9 @@ void for_rows(const RowUnits& units, Body body)
 class SolidMap {
 public:
     /**
-     * @param periodic   for each axis
-     * @param mirrors    faces behind which a sphere sees its mirror image
-     * @param thicken  whether cells cut by a fixed sphere count as more solid opposite other fixed spheres (SolidFraction::thicken)
+     * @param periodic  for each axis
+     * @param mirrors   faces behind which a sphere sees its mirror image
+     * @param thicken   whether cells cut by a fixed sphere count as more solid opposite other fixed spheres (SolidFraction::thicken)
      */
     SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const std::array<bool, 6>& mirrors,
              const Weighting& weighting, bool thicken);
