@@ -102,34 +102,29 @@ private:
         thicken(solids);
     }
 
-    /// Cells that a fixed sphere cuts count more where another one stands opposite.
+    /// Cells that a sphere cuts count more where another sphere stands opposite (docs/physics.md, "Narrow pores").
     void thicken(const std::vector<Solid>& solids)
     {
         std::vector<std::vector<Image>> images;
-        for (std::size_t s = 0; s < solids.size(); ++s)
-            images.push_back(is_fixed(solids[s]) ? images_of_others(solids, s) : std::vector<Image>{});
-        for (auto& shares : shares_) {
-            double fluid = 1;
-            for (const Share& share : shares)
-                if (is_fixed(solids[share.solid])) fluid -= share.epsilon;
+        for (std::size_t s = 0; s < solids.size(); ++s) images.push_back(images_of_others(solids, s));
+        for (auto& shares : shares_)
             for (Share& share : shares) {
-                double nearest = 8;
+                const double R = solids[share.solid].radius, r2 = dot(share.r, share.r);
+                double most = 0;
                 for (const Image& other : images[share.solid]) {
-                    const Vec3 r2 = share.r - other.from_me;
-                    if (dot(share.r, r2) >= 0) continue;
-                    nearest = std::min(nearest, norm(share.r) - solids[share.solid].radius + norm(r2) - other.radius);
+                    const Vec3 s = share.r - other.from_me;
+                    const double widest = 2 * std::min(R, other.radius),
+                                 facing = -2 * dot(share.r, s) / (R * other.radius);
+                    const double R2 = other.radius;
+                    const double h = std::max(0.0, (r2 - R * R) / (2 * R) + (dot(s, s) - R2 * R2) / (2 * R2));
+                    if (facing <= 0 || h >= widest) continue;
+                    const double left = 1 - h / widest;
+                    most = std::max(most, 3.5 / (h * h + 3.9) * left * left * std::min(facing, 1.0));
                 }
-                const double h = std::max(nearest, 0.0);
-                const double more = share.epsilon * std::max(fluid, 0.0) * 3.45 * (1 / (h * h + 7.3) - 1 / (64 + 7.3));
+                const double more = most * share.epsilon * (1 - share.epsilon);
                 share.epsilon += more;
                 filled_[share.solid] += more;
             }
-        }
-    }
-
-    static bool is_fixed(const Solid& s)
-    {
-        return std::isinf(s.mass) && std::isinf(s.inertia) && s.velocity == Vec3{} && s.angular_velocity == Vec3{};
     }
 
     struct Image {
@@ -144,7 +139,7 @@ private:
             for (int turns = 0; turns < 27; ++turns) {
                 const int t[3] = {turns % 3 - 1, turns / 3 % 3 - 1, turns / 9 - 1};
                 Vec3 at = solids[s].position - solids[me].position;
-                bool exists = is_fixed(solids[s]) && (s != me || turns != 13);
+                bool exists = s != me || turns != 13;
                 for (int d = 0; d < 3; ++d) {
                     exists = exists && (t[d] == 0 || c_.faces[2 * d].type == FaceType::periodic);
                     at[d] += t[d] * c_.cells[d];
@@ -152,9 +147,7 @@ private:
                 if (exists) images.push_back({at, solids[s].radius});
                 for (int face = 0; face < 6; ++face) {
                     const FaceType type = c_.faces[face].type;
-                    if (turns != 13 || !is_fixed(solids[s]) ||
-                        (type != FaceType::free_slip && type != FaceType::pressure))
-                        continue;
+                    if (turns != 13 || (type != FaceType::free_slip && type != FaceType::pressure)) continue;
                     const int d = face / 2;
                     Vec3 mirrored = solids[s].position - solids[me].position;
                     mirrored[d] =

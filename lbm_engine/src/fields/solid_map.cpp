@@ -121,7 +121,7 @@ std::vector<std::vector<int>> SolidMap::earlier_of_body(const std::vector<Lattic
     return earlier;
 }
 
-/// Gets ready for find_near.
+/// Gets ready for find_opposite.
 void SolidMap::search_near(const std::vector<LatticeSolid>& solids)
 {
     centres_.clear();
@@ -130,7 +130,7 @@ void SolidMap::search_near(const std::vector<LatticeSolid>& solids)
         centres_.push_back(solid.geometry.centre);
         if (solid.geometry.shape == Shape::sphere) largest = std::max(largest, solid.geometry.radius);
     }
-    neighbours_.sort(centres_, 2 * largest + kWidestPore);
+    neighbours_.sort(centres_, narrow_reach(largest, largest));
 }
 
 /// Whether a point is nearer than its periodic images: of a rigid body, then, the member and not its image.
@@ -141,36 +141,36 @@ bool SolidMap::is_nearest(const Vec3& image, const Vec3& to) const
     return true;
 }
 
-/// Fixed spheres of other bodies, images and mirror images that leave a narrow pore to a fixed sphere.
-void SolidMap::find_near(std::size_t solid, const std::vector<LatticeSolid>& solids,
-                         std::vector<NearSphere>& near) const
+/// Spheres of other bodies, images and mirror images that leave a narrow pore to a sphere.
+void SolidMap::find_opposite(std::size_t solid, const std::vector<LatticeSolid>& solids,
+                             std::vector<Opposite>& opposite) const
 {
-    near.clear();
+    opposite.clear();
     const LatticeSolid& one = solids[solid];
-    if (!thicken_ || one.geometry.shape != Shape::sphere || !one.fixed) return;
-    const auto add = [&](const NearSphere& image) {
-        const Vec3 apart = image.centre - one.geometry.centre;
-        const double reach = one.geometry.radius + image.radius + kWidestPore;
-        if (dot(apart, apart) < reach * reach && std::find(near.begin(), near.end(), image) == near.end())
-            near.push_back(image);  // members of a body may coincide
+    if (!thicken_ || one.geometry.shape != Shape::sphere) return;
+    const Vec3& centre = one.geometry.centre;
+    const double R = one.geometry.radius;
+    const auto add = [&](const Vec3& image, double radius) {
+        const Vec3 apart = image - centre;
+        const double reach = narrow_reach(R, radius), apart2 = dot(apart, apart);
+        if (apart2 > 0 && apart2 < reach * reach) opposite.emplace_back(apart, radius);
     };
-    const auto add_mirrored = [&](NearSphere image) {
+    const auto add_mirrored = [&](const Vec3& image, double radius) {
         for (int face = 0; face < 6; ++face) {
             if (!mirrors_[face]) continue;
-            NearSphere mirrored = image;
-            mirrored.mirrored = true;
-            mirrored.centre[face / 2] = (face % 2 == 0 ? 0 : 2 * n_[face / 2]) - image.centre[face / 2];
-            add(mirrored);
+            Vec3 mirrored = image;
+            mirrored[face / 2] = (face % 2 == 0 ? 0 : 2 * n_[face / 2]) - image[face / 2];
+            add(mirrored, radius);
         }
     };
-    add_mirrored({one.geometry.centre, one.geometry.radius});
+    add_mirrored(centre, R);
     neighbours_.for_near(static_cast<std::int32_t>(solid), [&](std::int32_t other, const Vec3& shift) {
         const LatticeSolid& two = solids[other];
-        if (two.geometry.shape != Shape::sphere || !two.fixed) return;
-        const NearSphere image{two.geometry.centre + shift, two.geometry.radius};
-        if (one.body >= 0 && one.body == two.body && is_nearest(image.centre, one.geometry.centre)) return;
-        add(image);
-        add_mirrored(image);
+        if (two.geometry.shape != Shape::sphere) return;
+        const Vec3 image = two.geometry.centre + shift;
+        if (one.body >= 0 && one.body == two.body && is_nearest(image, centre)) return;
+        add(image, two.geometry.radius);
+        add_mirrored(image, two.geometry.radius);
     });
 }
 
@@ -207,19 +207,17 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
                         before.angular_velocity != solids[s].angular_velocity;
     }
 
-    // Who is near whom changes with fixed spheres only.
     bool search = thicken_ && !same_set;
-    for (std::ptrdiff_t s = 0; s < count && thicken_ && !search; ++s)
-        search = solids_[s].solid.fixed != solids[s].fixed || (solids[s].fixed && moved_[s]);
+    for (std::ptrdiff_t s = 0; s < count && thicken_ && !search; ++s) search = moved_[s];
     if (search) search_near(solids);
     bool spans_changed = !same_set;
     fractions_.resize(std::max<std::size_t>(fractions_.size(), omp_get_max_threads()), {n_, periodic_});
-    near_.resize(fractions_.size());
+    opposite_.resize(fractions_.size());
 #pragma omp parallel reduction(|| : spans_changed, boxes_changed) if (count > 8)
     {
         SolidFraction& fraction = fractions_[omp_get_thread_num()];
         std::vector<SolidGeometry> others;
-        std::vector<NearSphere>& near = near_[omp_get_thread_num()];
+        std::vector<Opposite>& opposite = opposite_[omp_get_thread_num()];
 #pragma omp for schedule(dynamic, 8)
         for (std::ptrdiff_t s = 0; s < count; ++s) {
             MappedSolid& solid = solids_[s];
@@ -232,9 +230,9 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
                     changed = changed || moved[o];
                 }
             if (search) {
-                find_near(s, solids, near);
-                changed = changed || near != solid.near;
-                solid.near = near;
+                find_opposite(s, solids, opposite);
+                changed = changed || opposite != solid.opposite;
+                std::swap(solid.opposite, opposite);
             }
             if (!changed) continue;
             map(solid, fraction, others);
@@ -313,12 +311,7 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
     fraction.evaluate(geometry, others);
     solid.k = k(geometry);
     measure(solid, fraction, geometry.shape == Shape::sphere && others.empty());
-    solid.filled = 0;
-    if (!solid.near.empty()) {
-        const double before = covered(fraction);
-        fraction.thicken(geometry, solid.near);
-        solid.filled = covered(fraction) - before;
-    }
+    solid.filled = solid.opposite.empty() ? 0 : fraction.thicken(geometry, solid.opposite);
     const auto& first = fraction.first();
     const auto& count = fraction.count();
     solid.y0 = first[1];
@@ -360,20 +353,6 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
         }
     solid.units_y = units_along(solid.y0, solid.ny, n_[1], units_.rows);
     solid.units_z = units_along(solid.z0, solid.nz, n_[2], units_.planes);
-}
-
-/// Sum of the fractions inside the lattice.
-double SolidMap::covered(const SolidFraction& fraction) const
-{
-    double sum = 0;
-    for (int k = 0; k < fraction.count()[2]; ++k)
-        for (int j = 0; j < fraction.count()[1]; ++j) {
-            if (!is_row_inside(fraction, j, k)) continue;
-            const double* row = fraction.row(j, k);
-            for (int i = 0; i < fraction.count()[0]; ++i)
-                if (is_inside(fraction.first()[0] + i, 0)) sum += row[i];
-        }
-    return sum;
 }
 
 /// Volume inside the lattice, and whether surfaces cut no cell of it.

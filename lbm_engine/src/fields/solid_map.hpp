@@ -75,7 +75,7 @@ public:
     /**
      * @param periodic  for each axis
      * @param mirrors   faces behind which a sphere sees its mirror image
-     * @param thicken   whether cells cut by a fixed sphere count as more solid opposite other fixed spheres (SolidFraction::thicken)
+     * @param thicken   whether cells cut by a sphere count as more solid opposite other spheres (SolidFraction::thicken)
      */
     SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const std::array<bool, 6>& mirrors,
              const Weighting& weighting, bool thicken);
@@ -123,7 +123,7 @@ private:
         double k = 0, volume = 0, filled = 0;
         int y0 = 0, ny = 0, z0 = 0, nz = 0;  // rows, not wrapped
         int units_y = 0, units_z = 0;        // of rows, that they lie in; at most all
-        std::vector<NearSphere> near;        // that leave a narrow pore
+        std::vector<Opposite> opposite;      // that leave a narrow pore
         std::vector<Span> spans;             // ny * nz, and an end
         std::vector<double> fractions;       // a block of padding before and after those of the spans
         bool whole_cells = false;
@@ -136,10 +136,10 @@ private:
                       const std::array<int, 3>& cell) const;
     void search_near(const std::vector<LatticeSolid>& solids);
     bool is_nearest(const Vec3& image, const Vec3& to) const;
-    void find_near(std::size_t solid, const std::vector<LatticeSolid>& solids, std::vector<NearSphere>& near) const;
+    void find_opposite(std::size_t solid, const std::vector<LatticeSolid>& solids,
+                       std::vector<Opposite>& opposite) const;
     void map(MappedSolid& solid, SolidFraction& fraction, const std::vector<SolidGeometry>& others) const;
     void measure(MappedSolid& solid, const SolidFraction& fraction, bool lone_sphere) const;
-    double covered(const SolidFraction& fraction) const;
     void list_rows();
     void tell_rows();
     template <class Body>
@@ -160,10 +160,10 @@ private:
     RowUnits units_;
     std::vector<MappedSolid> solids_;
     Neighbours neighbours_;
-    std::vector<std::uint8_t> moved_;            // while updating
-    std::vector<Vec3> centres_;                  // while searching
-    std::vector<SolidFraction> fractions_;       // for each thread
-    std::vector<std::vector<NearSphere>> near_;  // the same
+    std::vector<std::uint8_t> moved_;              // while updating
+    std::vector<Vec3> centres_;                    // while searching
+    std::vector<SolidFraction> fractions_;         // for each thread
+    std::vector<std::vector<Opposite>> opposite_;  // the same
     std::vector<RowSolid> row_solids_;
     bool all_fixed_ = false;
     std::vector<std::uint32_t> row_begin_;  // (ny * nz + 1)

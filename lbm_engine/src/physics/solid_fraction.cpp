@@ -1,8 +1,9 @@
 #include "physics/solid_fraction.hpp"
 
+#include "lattice/each_isa.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace lbm {
 namespace {
@@ -126,6 +127,97 @@ bool is_hidden(const std::vector<SolidGeometry>& solids, const Vec3& p)
     });
 }
 
+/// Cells that are written at a time.
+constexpr int kChunk = 8;
+
+/// Half a diagonal: the centres of cells that a surface cuts are so near it.
+constexpr double kCut = 0.87;
+
+/// Pores that are wider than this, with the larger of two curvatures, are not narrow.
+double widest_pore(double curvature) { return 2 / curvature; }
+
+/// The pore between a sphere and what stands opposite: what does not depend on the cell.
+struct Pore {
+    Vec3 towards;
+    double curvature1, curvature2;
+    double distance;  ///< h = (curvature1 + curvature2) / 2 r^2 - r.towards + distance
+    double widest;
+
+    Pore(const SolidGeometry& sphere, const Opposite& other)
+        : towards(other.towards)
+        , curvature1(1 / sphere.radius)
+        , curvature2(other.curvature)
+        , distance(other.distance - 0.5 * sphere.radius)
+        , widest(widest_pore(std::max(curvature1, curvature2)))
+    {
+    }
+
+    /// Where along z, from the centre of the sphere, cells of the pore between two radii may be: those of a cap.
+    Interval reach_z(double inner, double outer) const
+    {
+        const double length = norm(towards);
+        const double faces = curvature2 * inner * inner;                                            // r.s < 0
+        const double narrow = 0.5 * (curvature1 + curvature2) * inner * inner + distance - widest;  // h < widest
+        const double height = std::max(faces, narrow) / length;
+        if (!(height < outer)) return kNothing;
+        const double n = towards[2] / length;
+        const double across = std::sqrt(std::max(0.0, (1 - n * n) * (outer * outer - height * height)));
+        return {-n * outer >= height ? -outer : n * height - across, n * outer >= height ? outer : n * height + across};
+    }
+};
+
+/// A row of cells.
+struct Row {
+    std::uint32_t place;  ///< of the row
+    Vec3 first;           ///< centre of its first cell, from that of the sphere
+    int begin, end;       ///< cells inside the lattice
+};
+
+/// Lists cells of a row between two radii; writes whole chunks, of which the last one does not count to its end.
+LBM_EACH_ISA
+int list_ring(const Row row, double inner, double outer, std::uint32_t* cell, double* x, double* y, double* z)
+{
+    const double across2 = row.first[1] * row.first[1] + row.first[2] * row.first[2];
+    const double outer2 = outer * outer - across2, inner2 = inner * inner - across2;
+    if (outer2 <= 0) return 0;
+    const double half = std::sqrt(outer2), hollow = inner2 > 0 ? std::sqrt(inner2) : 0;
+    const double ends[4] = {-half, -hollow, hollow, half};
+    int count = 0;
+    for (int side = hollow > 0 ? 0 : 2; side < 4; side += 2) {
+        const double from = hollow > 0 ? ends[side] : -half;
+        int i = std::max(row.begin, static_cast<int>(from - row.first[0] + 1));
+        const int end = std::min(row.end, static_cast<int>(ends[side + 1] - row.first[0] + 1));
+        for (; i < end; i += kChunk) {
+            for (int l = 0; l < kChunk; ++l) {
+                cell[count + l] = row.place + i + l;
+                x[count + l] = row.first[0] + (i + l);
+                y[count + l] = row.first[1];
+                z[count + l] = row.first[2];
+            }
+            count += std::min(kChunk, end - i);
+        }
+    }
+    return count;
+}
+
+/// Raises the thickening of cells by what a pore asks for; x, y, z: their centres as seen from that of the sphere.
+LBM_EACH_ISA
+void narrow(const Pore pore, const double* x, const double* y, const double* z, int count, double* thickening)
+{
+    constexpr double kStrength = 3.5, kWidth2 = 3.9;  // fitted: docs/physics.md
+    const double tx = pore.towards[0], ty = pore.towards[1], tz = pore.towards[2];
+    const double curvature = 0.5 * (pore.curvature1 + pore.curvature2), curvature2 = pore.curvature2;
+    const double distance = pore.distance, over_widest = 1 / pore.widest, twice_curvature1 = 2 * pore.curvature1;
+    for (int i = 0; i < count; ++i) {
+        const double r2 = x[i] * x[i] + y[i] * y[i] + z[i] * z[i], along = x[i] * tx + y[i] * ty + z[i] * tz;
+        const double width = curvature * r2 - along + distance, h = width > 0 ? width : 0;
+        const double narrow = 1 - h * over_widest, in_reach = narrow > 0 ? narrow : 0;
+        const double facing = twice_curvature1 * (along - curvature2 * r2);  // -2 r.s / (R1 R2)
+        const double t = kStrength / (h * h + kWidth2) * in_reach * in_reach * (facing < 1 ? facing : 1);
+        thickening[i] = t > thickening[i] ? t : thickening[i];
+    }
+}
+
 }  // namespace
 
 void SolidFraction::evaluate(const SolidGeometry& solid, const std::vector<SolidGeometry>& others)
@@ -146,59 +238,64 @@ void SolidFraction::evaluate(const SolidGeometry& solid, const std::vector<Solid
     if (!others.empty()) leave_out(solid, others);
 }
 
-double thickening(double pore)
+double narrow_reach(double radius1, double radius2)
 {
-    const auto curve = [](double h) { return 3.45 / (h * h + 7.3); };
-    return pore < kWidestPore ? curve(std::max(pore, 0.0)) - curve(kWidestPore) : 0;
+    const double widest = widest_pore(1 / std::min(radius1, radius2));
+    return radius1 + std::sqrt(radius2 * radius2 + 2 * radius2 * (widest + kCut));
 }
 
-void SolidFraction::thicken(const SolidGeometry& sphere, const std::vector<NearSphere>& near)
+double SolidFraction::thicken(const SolidGeometry& sphere, const std::vector<Opposite>& opposite)
 {
     make_own();
-    add_others(sphere, near);
-    for (int k = 0; k < count_[2]; ++k)
-        for (int j = 0; j < count_[1]; ++j) {
-            double* const fraction = own_row(j, k);
-            const double* const others = others_.data() + (fraction - own_.data());
-            for (int i = 0; i < count_[0]; ++i) {
-                const double fluid = 1 - fraction[i] - others[i];
-                if (fraction[i] == 0 || fluid <= 0) continue;
-                const Vec3 cell{first_[0] + i + 0.5, first_[1] + j + 0.5, first_[2] + k + 0.5};
-                const Vec3 r = cell - sphere.centre;
-                double opposite = std::numeric_limits<double>::infinity();
-                for (const NearSphere& other : near) {
-                    const Vec3 r2 = cell - other.centre;
-                    if (dot(r, r2) < 0) opposite = std::min(opposite, norm(r2) - other.radius);
-                }
-                fraction[i] *= 1 + thickening(norm(r) - sphere.radius + opposite) * fluid;
-            }
-        }
+    const double inner = std::max(0.0, sphere.radius - kCut), outer = sphere.radius + kCut;
+    gather_ring(sphere.centre, inner, outer);
+    for (const Opposite& other : opposite) {
+        const Pore pore(sphere, other);
+        const Interval reach = pore.reach_z(inner, outer);
+        if (reach.length() == 0) continue;
+        const auto plane = [&](double z) {
+            return cut_.planes[static_cast<int>(std::clamp<double>(sphere.centre[2] + z - first_[2], 0, count_[2]))];
+        };
+        const int begin = plane(reach.begin), end = plane(reach.end + 1);
+        narrow(pore, cut_.x.data() + begin, cut_.y.data() + begin, cut_.z.data() + begin, end - begin,
+               cut_.thickening.data() + begin);
+    }
+    double added = 0;
+    for (int i = 0; i < cut_.planes[count_[2]]; ++i) {
+        double& fraction = own_[cut_.cell[i]];
+        const double more = cut_.thickening[i] * fraction * (1 - fraction);
+        fraction += more;
+        added += more;
+    }
+    return added;
 }
 
-/// Collects what other spheres cover of the cells of this one.
-void SolidFraction::add_others(const SolidGeometry& sphere, const std::vector<NearSphere>& near)
+/// Lists the cells inside the lattice with centres between two radii, plane by plane.
+void SolidFraction::gather_ring(const Vec3& centre, double inner, double outer)
 {
-    constexpr double kDiagonal = 1.75;  // of a cell, and a hair more
-    others_.assign(own_.size(), 0.0);
-    for (const NearSphere& other : near) {
-        if (other.mirrored || norm(other.centre - sphere.centre) > sphere.radius + other.radius + kDiagonal) continue;
-        std::array<int, 3> begin, end;
-        bool shares = true;
-        for (int d = 0; d < 3; ++d) {
-            begin[d] = std::max(first_[d], static_cast<int>(std::floor(other.centre[d] - other.radius)));
-            end[d] = std::min(first_[d] + count_[d], static_cast<int>(std::ceil(other.centre[d] + other.radius)));
-            shares = shares && begin[d] < end[d];
-        }
-        if (!shares) continue;
-        other_.evaluate(other.centre, other.radius);
-        const auto& first = other_.first();
-        for (int z = begin[2]; z < end[2]; ++z)
-            for (int y = begin[1]; y < end[1]; ++y) {
-                const double* const row = other_.row(y - first[1], z - first[2]);
-                double* const sum = others_.data() + (own_row(y - first_[1], z - first_[2]) - own_.data());
-                for (int x = begin[0]; x < end[0]; ++x) sum[x - first_[0]] += row[x - first[0]];
-            }
+    std::array<int, 3> begin{}, end = count_;
+    Vec3 first{};  // centre of the first cell
+    for (int d = 0; d < 3; ++d) {
+        first[d] = first_[d] + 0.5 - centre[d];
+        if (periodic_[d]) continue;
+        begin[d] = std::clamp(-first_[d], 0, count_[d]);
+        end[d] = std::clamp(n_[d] - first_[d], begin[d], count_[d]);
     }
+    for (auto* list : {&cut_.x, &cut_.y, &cut_.z}) list->resize(own_.size() + kChunk);
+    cut_.cell.resize(own_.size() + kChunk);
+    cut_.planes.assign(count_[2] + 1, 0);
+    int count = 0;
+    for (int k = 0; k < count_[2]; ++k) {
+        if (begin[2] <= k && k < end[2])
+            for (int j = begin[1]; j < end[1]; ++j) {
+                const Row row{static_cast<std::uint32_t>(own_row(j, k) - own_.data()),
+                              first + Vec3{0, double(j), double(k)}, begin[0], end[0]};
+                count += list_ring(row, inner, outer, cut_.cell.data() + count, cut_.x.data() + count,
+                                   cut_.y.data() + count, cut_.z.data() + count);
+            }
+        cut_.planes[k + 1] = count;
+    }
+    cut_.thickening.assign(count, 0.0);
 }
 
 void SolidFraction::make_own()

@@ -3,6 +3,7 @@
 #include "lattice/vec3.hpp"
 #include "physics/sphere_fraction.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -20,25 +21,28 @@ struct SolidGeometry {
     bool operator==(const SolidGeometry&) const = default;
 };
 
-/// A sphere near another one: the image that is near.
-struct NearSphere {
-    Vec3 centre{};
-    double radius = 0;
-    bool mirrored = false;  ///< behind a face of the lattice: none of its volume is in cells of the lattice
-    bool operator==(const NearSphere&) const = default;
+/**
+ * A sphere opposite another one across a pore, as seen from the centre of that one. The distance of a point r from it is taken as (s^2 - R2^2) / (2 R2), s being the
+ * point as seen from its own centre, or
+ *
+ *     r^2 / (2 R2) - r.towards + distance
+ */
+struct Opposite {
+    Vec3 towards{};        ///< its centre over its radius
+    double curvature = 0;  ///< 1 / R2
+    double distance = 0;   ///< of the centre from which it is seen
+    bool operator==(const Opposite&) const = default;
+
+    Opposite(const Vec3& centre, double radius)
+        : towards((1 / radius) * centre)
+        , curvature(1 / radius)
+        , distance((dot(centre, centre) - radius * radius) / (2 * radius))
+    {
+    }
 };
 
-/**
- * By how much more a cell that a sphere cuts counts as solid where another sphere stands opposite: eps (1 + thickening(h) m) instead of eps.
- *
- * A pressure gradient drives flow through cut cells, too much by a volume that does not depend on the width h of the pore; against the flow of the pore, h^3 / 12, this is an error of the
- * order of 1 / h^3, or surfaces that stand apart by 1 / h^2 too much. Constants are fitted on dense cubic arrays (docs/physics.md, "Narrow pores").
- *
- * @param pore  h, the sum of the distances of the cell's centre from both surfaces [cells]
- * @return between 0.42 at contact and 0 from kWidestPore on
- */
-inline constexpr double kWidestPore = 8;
-[[nodiscard]] double thickening(double pore);
+/// Distance between the centres of two spheres beyond which no pore between them is narrow.
+[[nodiscard]] double narrow_reach(double radius1, double radius2);
 
 /**
  * Solid fractions of the cells that a solid touches, inside a lattice.
@@ -58,8 +62,19 @@ public:
      */
     void evaluate(const SolidGeometry& solid, const std::vector<SolidGeometry>& others = {});
 
-    /// Raises the fractions of cut cells of a sphere that was evaluated where other spheres stand opposite (thickening).
-    void thicken(const SolidGeometry& sphere, const std::vector<NearSphere>& near);
+    /**
+     * Counts the cells that a sphere cuts as more solid where other spheres stand opposite across a narrow pore: eps (1 + t (1 - eps)) instead of eps.
+     *
+     * A pressure gradient drives flow through cut cells, too much by a volume that does not depend on the width of the pore; against the flow of a narrow one this
+     * counts (docs/physics.md, "Narrow pores"). With r and s the places of a cell as seen from the two centres,
+     *
+     *     t = 3.5 / (h^2 + 3.9) (1 - h / w)^2 min(1, -2 r.s / (R1 R2)),   h = (r^2 - R1^2) / (2 R1) + (s^2 - R2^2) / (2 R2),   w = 2 min(R1, R2)
+     *
+     * h being the width of the pore; the last factor fades it out where surfaces stand across to each other. The largest t counts.
+     *
+     * @return what was added inside the lattice [cells]
+     */
+    double thicken(const SolidGeometry& sphere, const std::vector<Opposite>& opposite);
 
     const std::array<int, 3>& first() const noexcept { return first_; }  ///< lowest cell
     const std::array<int, 3>& count() const noexcept { return count_; }  ///< cells
@@ -76,7 +91,7 @@ private:
     void leave_out(const SolidGeometry& solid, const std::vector<SolidGeometry>& others);
     void bounds(const Vec3& centre, const Vec3& half);
     void make_own();
-    void add_others(const SolidGeometry& sphere, const std::vector<NearSphere>& near);
+    void gather_ring(const Vec3& centre, double inner, double outer);
     SolidGeometry nearest_image(const SolidGeometry& other, const Vec3& centre) const;
     double* own_row(int j, int k) noexcept
     {
@@ -89,9 +104,13 @@ private:
     const double* data_ = nullptr;
     std::size_t line_ = 0;  // between rows
     SphereFraction sphere_;
-    std::vector<double> own_;                  // fractions that are not a lone sphere's
-    SphereFraction other_;                     // while thickening
-    std::vector<double> others_;               // what the others cover of the cells, line by line as own_
+    std::vector<double> own_;  // fractions that are not a lone sphere's
+    struct {
+        std::vector<std::uint32_t> cell;  // place in own_
+        std::vector<double> x, y, z;      // of its centre, from that of the sphere
+        std::vector<double> thickening;
+        std::vector<int> planes;               // first cell of each plane, and an end
+    } cut_;                                    // cells, while thickening
     std::array<std::vector<double>, 3> axis_;  // while evaluating a box along the axes
 };
 
