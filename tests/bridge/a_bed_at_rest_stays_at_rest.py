@@ -47,7 +47,7 @@ def fastest():
     return max(b.state.vel.norm() for b in O.bodies if isinstance(b.shape, Sphere)) / lone
 
 
-def check_rest(settled=14, watched=4, **scene):
+def check_rest(settled=20, watched=4, **scene):
     bed(**scene)
     O.run(math.ceil(settled / O.dt), True)
     seen = []
