@@ -2,17 +2,17 @@
 
 namespace lbm {
 
-/// W doubles side by side, on which the arithmetic operators work lane by lane: the collision is written once for all W.
-template <int W>
+/// W numbers side by side, on which the arithmetic operators work lane by lane: the collision is written once for all W.
+template <int W, class S>
 struct PackOf {
-    using type [[gnu::vector_size(W * sizeof(double))]] = double;
+    using type [[gnu::vector_size(W * sizeof(S))]] = S;
 };
-template <>
-struct PackOf<1> {
-    using type = double;
+template <class S>
+struct PackOf<1, S> {
+    using type = S;
 };
-template <int W>
-using Pack = typename PackOf<W>::type;
+template <int W, class S = double>
+using Pack = typename PackOf<W, S>::type;
 
 /// The same number of values in memory, wherever they begin. (A copy through memcpy goes by halves and over the stack.)
 template <int W, class T>
@@ -22,15 +22,15 @@ struct InMemoryOf {
 template <int W, class T>
 using InMemory = typename InMemoryOf<W, T>::type;
 
-template <int W, class T>
-[[gnu::always_inline]] inline Pack<W> load(const T* p)
+template <int W, class S = double, class T>
+[[gnu::always_inline]] inline Pack<W, S> load(const T* p)
 {
     if constexpr (W == 1) return *p;
-    else return __builtin_convertvector(*reinterpret_cast<const InMemory<W, T>*>(p), Pack<W>);
+    else return __builtin_convertvector(*reinterpret_cast<const InMemory<W, T>*>(p), Pack<W, S>);
 }
 
-template <int W, class T>
-[[gnu::always_inline]] inline void store(T* p, const Pack<W>& v)
+template <int W, class S = double, class T>
+[[gnu::always_inline]] inline void store(T* p, const Pack<W, S>& v)
 {
     if constexpr (W == 1) *p = static_cast<T>(v);
     else *reinterpret_cast<InMemory<W, T>*>(p) = __builtin_convertvector(v, InMemory<W, T>);

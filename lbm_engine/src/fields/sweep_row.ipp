@@ -5,17 +5,20 @@
 #include "fields/sweep_row.hpp"
 #include "physics/comparison_schemes.hpp"
 
+#include <algorithm>
+#include <type_traits>
+
 namespace lbm::LBM_ISA {
 namespace {
 
-template <int W>
+template <int W, class S>
 struct WatchPack {
-    Pack<W> max2{}, sum2{}, drho2{};
-    [[gnu::always_inline]] void see(const Seen<Pack<W>>& cells)
+    Pack<W, S> max2{}, sum2{}, drho2{};
+    [[gnu::always_inline]] void see(const Seen<Pack<W, S>>& cells)
     {
         max2 = cells.u2 > max2 ? cells.u2 : max2;
         sum2 += cells.u2;
-        const Pack<W> squared = cells.drho * cells.drho;
+        const Pack<W, S> squared = cells.drho * cells.drho;
         drho2 = squared > drho2 ? squared : drho2;
     }
 };
@@ -24,11 +27,12 @@ struct WatchPack {
 template <class L, class V, class T>
 [[gnu::always_inline]] inline void load_all(T* const (&p)[L::Q], int x, Slot ahead, V (&f)[L::Q])
 {
+    constexpr int kLanes = sizeof(V) / sizeof(Scalar<V>);
 #pragma GCC unroll 27
     for (int i = 0; i < L::Q; ++i) {
-        f[i] = load<sizeof(V) / sizeof(double)>(p[i] + x);
+        f[i] = load<kLanes, Scalar<V>>(p[i] + x);
         // Memory works on the next row while this one is computed and its solids are served. 1: to be written, 2: into the second level.
-        if constexpr (sizeof(V) / sizeof(double) > 1) __builtin_prefetch(p[i] + x + ahead, 1, 2);
+        if constexpr (kLanes > 1) __builtin_prefetch(p[i] + x + ahead, 1, 2);
     }
 }
 
@@ -36,11 +40,19 @@ template <class L, class V, class T>
 [[gnu::always_inline]] inline void store_all(T* const (&p)[L::Q], int x, const V (&f)[L::Q])
 {
 #pragma GCC unroll 27
-    for (int i = 0; i < L::Q; ++i) store<sizeof(V) / sizeof(double)>(p[L::opposite(i)] + x, f[i]);
+    for (int i = 0; i < L::Q; ++i) store<sizeof(V) / sizeof(Scalar<V>), Scalar<V>>(p[L::opposite(i)] + x, f[i]);
 }
 
 /// How the cells of a block collide.
 enum class Kind { fluid, cut, cut_by_fixed, any };
+
+/// Cells of fluid are computed in the kind of number T that their populations are stored in, others in doubles.
+template <Kind kind, class T>
+using Number = std::conditional_t<kind == Kind::fluid, T, double>;
+
+/// As many fit into a register.
+template <Kind kind, class T>
+constexpr int kWidest = LBM_LANES*(sizeof(double) / sizeof(Number<kind, T>));
 
 /// From the sums of what the solids say to some cells to what their collision needs.
 template <Kind kind, int W>
@@ -66,9 +78,9 @@ template <Kind kind, int W>
 template <class L, bool inertia, Kind kind, int W, class T>
 [[gnu::always_inline]] inline void sweep_cells(T* const (&p)[L::Q], int x, Slot ahead,
                                                const CollisionParameters& parameters, RowSaturation* row,
-                                               WatchPack<W>& watch)
+                                               WatchPack<W, Number<kind, T>>& watch)
 {
-    Pack<W> f[L::Q];
+    Pack<W, Number<kind, T>> f[L::Q];
     load_all<L>(p, x, ahead, f);
     if constexpr (kind == Kind::fluid) watch.see(collide_fluid<L, inertia>(f, parameters));
     else {
@@ -94,36 +106,47 @@ template <class L, bool inertia, Kind kind, int W, class T>
     store_all<L>(p, x, f);
 }
 
-template <class V>
-void note(const V& pack, int lanes, FlowWatch& watch)
+template <int W, class S>
+void note(const WatchPack<W, S>& pack, FlowWatch& watch)
 {
-    const auto lane = [](const auto& of, int l) { return reinterpret_cast<const double*>(&of)[l]; };
-    for (int l = 0; l < lanes; ++l) watch.see({lane(pack.max2, l), lane(pack.sum2, l), lane(pack.drho2, l)});
+    const auto lane = [](const auto& of, int l) { return reinterpret_cast<const S*>(&of)[l]; };
+    for (int l = 0; l < W; ++l) watch.see({lane(pack.max2, l), lane(pack.sum2, l), lane(pack.drho2, l)});
 }
 
-/// Neighbouring blocks of a row. One function for each kind of cells, because registers are few.
-template <class L, bool inertia, Kind kind, int W, class T>
-[[gnu::noinline]] void sweep_blocks(T* const (&p)[L::Q], int begin, int end, Slot ahead,
-                                    const CollisionParameters& parameters, RowSaturation& row, WatchPack<W>& watch)
-{
-    if constexpr (kind != Kind::fluid)
-        for (int x = begin * kBlock; x < end * kBlock; x += W) weigh<kind, W>(parameters, row, x);
-    WatchPack<W> seen = watch;
-    for (int x = begin * kBlock; x < end * kBlock; x += W)
-        sweep_cells<L, inertia, kind, W>(p, x, ahead, parameters, &row, seen);
-    watch = seen;
-}
-
-/// Less than a block at the end of a row, W cells at a time as long as they last, then fewer.
+/// Cells from x on, W at a time as long as they last, then fewer.
 template <class L, bool inertia, Kind kind, int W, class T>
 [[gnu::noinline]] void sweep_rest(T* const (&p)[L::Q], int x, int end, Slot ahead,
                                   const CollisionParameters& parameters, RowSaturation* row, FlowWatch& watch)
 {
-    WatchPack<W> pack;
+    WatchPack<W, Number<kind, T>> pack;
     for (; x + W <= end; x += W) sweep_cells<L, inertia, kind, W>(p, x, ahead, parameters, row, pack);
-    note(pack, W, watch);
+    note(pack, watch);
     if constexpr (W > 1)
         if (x < end) sweep_rest<L, inertia, kind, W / 2>(p, x, end, ahead, parameters, row, watch);
+}
+
+/// What was seen in whole packs of cells of a kind, and in others.
+template <Kind kind, class T>
+struct RowWatch {
+    WatchPack<kWidest<kind, T>, Number<kind, T>> packs;
+    FlowWatch rest;
+};
+
+/// Neighbouring blocks of a row. One function for each kind of cells, because registers are few.
+template <class L, bool inertia, Kind kind, class T>
+[[gnu::noinline]] void sweep_blocks(T* const (&p)[L::Q], int begin, int end, Slot ahead,
+                                    const CollisionParameters& parameters, RowSaturation& row, RowWatch<kind, T>& watch)
+{
+    constexpr int W = kWidest<kind, T>;
+    int x = begin * kBlock;
+    const int end_x = end * kBlock;
+    if constexpr (kind != Kind::fluid)
+        for (int i = x; i < end_x; i += W) weigh<kind, W>(parameters, row, i);
+    auto seen = watch.packs;
+    for (; x + W <= end_x; x += W) sweep_cells<L, inertia, kind, W>(p, x, ahead, parameters, &row, seen);
+    watch.packs = seen;
+    if constexpr (W > kBlock)
+        if (x < end_x) sweep_rest<L, inertia, kind, W / 2>(p, x, end_x, ahead, parameters, &row, watch.rest);
 }
 
 /// A row with solids, whose cells are of one kind.
@@ -132,25 +155,30 @@ template <class L, bool inertia, Kind kind, class T>
                                                    const CollisionParameters& parameters, RowSaturation& row,
                                                    FlowWatch& watch)
 {
-    constexpr int W = LBM_LANES;
     const int whole = nx / kBlock;
     const auto is_covered = [&](int block) { return row.covered[block] != RowSaturation::kFluid; };
-    WatchPack<W> pack;
+    RowWatch<kind, T> solid_watch;
+    RowWatch<Kind::fluid, T> fluid_watch;
     for (int begin = 0, end = 0; begin < whole; begin = end) {
         const bool covered = is_covered(begin);
         do ++end;
         while (end < whole && is_covered(end) == covered);
-        if (covered) sweep_blocks<L, inertia, kind, W>(p, begin, end, ahead, parameters, row, pack);
-        else sweep_blocks<L, inertia, Kind::fluid, W>(p, begin, end, ahead, parameters, row, pack);
+        if (covered) sweep_blocks<L, inertia, kind>(p, begin, end, ahead, parameters, row, solid_watch);
+        else sweep_blocks<L, inertia, Kind::fluid>(p, begin, end, ahead, parameters, row, fluid_watch);
     }
-    note(pack, W, watch);
-    if (whole * kBlock == nx) return;
-    if (is_covered(whole)) {
-        for (int x = 0; x < kBlock; x += W) weigh<kind, W>(parameters, row, whole * kBlock + x);
-        sweep_rest<L, inertia, kind, W>(p, whole * kBlock, nx, ahead, parameters, &row, watch);
-    } else {
-        sweep_rest<L, inertia, Kind::fluid, W>(p, whole * kBlock, nx, ahead, parameters, &row, watch);
+    if (whole * kBlock < nx) {
+        constexpr int W = LBM_LANES;
+        if (is_covered(whole)) {
+            for (int x = 0; x < kBlock; x += W) weigh<kind, W>(parameters, row, whole * kBlock + x);
+            sweep_rest<L, inertia, kind, W>(p, whole * kBlock, nx, ahead, parameters, &row, watch);
+        } else {
+            sweep_rest<L, inertia, Kind::fluid, W>(p, whole * kBlock, nx, ahead, parameters, &row, watch);
+        }
     }
+    note(solid_watch.packs, watch);
+    note(fluid_watch.packs, watch);
+    watch.see(solid_watch.rest);
+    watch.see(fluid_watch.rest);
 }
 
 }  // namespace
@@ -161,9 +189,8 @@ void sweep_row(T* f, const Slot (&slot)[L::Q], int nx, Slot ahead, const Collisi
 {
     T* p[L::Q];
     for (int i = 0; i < L::Q; ++i) p[i] = f + slot[i];
-    constexpr int W = LBM_LANES;
     if (!cells) {
-        sweep_rest<L, inertia, Kind::fluid, W>(p, 0, nx, ahead, parameters, nullptr, watch);
+        sweep_rest<L, inertia, Kind::fluid, kWidest<Kind::fluid, T>>(p, 0, nx, ahead, parameters, nullptr, watch);
         return;
     }
     const bool wall =

@@ -3,12 +3,29 @@
 #include "lbm/fluid_config.hpp"
 #include "physics/rates.hpp"
 
+#include <type_traits>
 #include <utility>
 
 namespace lbm {
 
+/// The kind of number in a vector V, or V itself.
+template <class V>
+struct ScalarOf {
+    using type = std::remove_cvref_t<decltype(V{}[0])>;
+};
+template <>
+struct ScalarOf<double> {
+    using type = double;
+};
+template <>
+struct ScalarOf<float> {
+    using type = float;
+};
+template <class V>
+using Scalar = typename ScalarOf<V>::type;
+
 /**
- * The collision of one cell, or of as many cells side by side as `V` has lanes: V is double or a vector of doubles.
+ * The collision of one cell, or of as many cells side by side as `V` has lanes: V is a number or a vector of them.
  * Populations are deviations from rest, f - w; lattice units with rho_0 = 1.
  */
 struct CollisionParameters {
@@ -78,10 +95,20 @@ template <class L, class V>
     return m;
 }
 
-/// The sources of a relaxation. With rho u and E, the even ones are w (even_0 + (c.rho u) (c.E) / rho) in population i, the odd ones w c.odd.
+/// The least weight of a lattice. The others, and sums of them, are whole multiples of it.
+template <class L>
+inline constexpr double kLeastWeight = L::w(L::Q - 1);
+template <class L>
+constexpr int multiple_of_least(double sum_of_weights)
+{
+    return static_cast<int>(sum_of_weights / kLeastWeight<L> + 0.5);
+}
+
+/// The sources of a relaxation. With rho u and E, the even ones are w (even_0 + (c.rho u) (c.E) / rho) in population i, the odd ones 6 w c.odd.
 template <class V>
 struct Sources {
-    V even_0, inverse_rho, rho_u[3], E[3], odd[3];
+    V even_0, inverse_rho, rho_u[3], E[3];
+    V odd[3];  ///< half of the momentum that they bring
 };
 
 /**
@@ -89,21 +116,31 @@ struct Sources {
  *
  *     f+ <- (1 - omega+) f+  + even sources
  *     f- <- (1 - omega-) f-  + odd sources
+ *
+ * With rounded weights the sources would bring a little too much or too little mass and momentum, at each step the same: in 32 bits it would show after 10^5 steps. So the population at
+ * rest and those along the axes get what the others leave.
  */
 template <class L, bool inertia, class V, class Rate>
-[[gnu::always_inline]] inline void relax(V (&f)[L::Q], double omega_plus, const Rate& omega_minus, const Sources<V>& s)
+[[gnu::always_inline]] inline void relax(V (&f)[L::Q], Scalar<V> keep_even, const Rate& keep_odd, const Sources<V>& s)
 {
-    const double keep_even = 1 - omega_plus;
-    const Rate keep_odd = 1 - omega_minus;
-    f[0] = keep_even * f[0] + L::w(0) * s.even_0;
+    using S = Scalar<V>;
+    constexpr S least = kLeastWeight<L>;
+    const V even_0 = least * s.even_0;
+    V along_axes[3], others[3];
+    for (int d = 0; d < 3; ++d) {
+        others[d] = (6 * least) * s.odd[d];
+        along_axes[d] = s.odd[d] - S(multiple_of_least<L>(1.0 / 6 - L::w(1))) * others[d];
+    }
+    f[0] = keep_even * f[0] + (s.even_0 - S(multiple_of_least<L>(1 - L::w(0))) * even_0);
     detail::for_pairs<L>([&]<int a, int b>() __attribute__((always_inline)) {
         // Products with w are the same for many directions, and known before their sums are.
-        constexpr double w = L::w(a);
-        V even = w * s.even_0;
-        if constexpr (inertia) even += (w * s.inverse_rho) * (detail::c_dot<L, a>(s.rho_u) * detail::c_dot<L, a>(s.E));
-        const V odd[3] = {w * s.odd[0], w * s.odd[1], w * s.odd[2]};
-        const V new_even = (0.5 * keep_even) * (f[a] + f[b]) + even;
-        const V new_odd = (0.5 * keep_odd) * (f[a] - f[b]) + detail::c_dot<L, a>(odd);
+        constexpr S w = multiple_of_least<L>(L::w(a));
+        V even = w * even_0;
+        if constexpr (inertia)
+            even += (w * least * s.inverse_rho) * (detail::c_dot<L, a>(s.rho_u) * detail::c_dot<L, a>(s.E));
+        const V odd = L::w(a) == L::w(1) ? detail::c_dot<L, a>(along_axes) : w * detail::c_dot<L, a>(others);
+        const V new_even = (S(0.5) * keep_even) * (f[a] + f[b]) + even;
+        const V new_odd = (S(0.5) * keep_odd) * (f[a] - f[b]) + odd;
         f[a] = new_even + new_odd;
         f[b] = new_even - new_odd;
     });
@@ -115,15 +152,18 @@ template <class L, bool inertia, class V, class Rate>
  * w (omega+ drho - u.E / 3 + (c.u) (c.E)). Stokes flow keeps omega+ drho only. Nothing but the last step waits for 1 / rho.
  * @see Guo, Zheng & Shi (2002), Phys. Rev. E 65, 046308
  */
-template <bool inertia, class V>
-[[gnu::always_inline]] inline void add_even_sources(double omega_plus, const V& drho, const V (&total_force)[3],
+template <class L, bool inertia, class V>
+[[gnu::always_inline]] inline void add_even_sources(Scalar<V> omega_plus, const V& drho, const V (&total_force)[3],
                                                     Sources<V>& s)
 {
+    using S = Scalar<V>;
     s.even_0 = omega_plus * drho;
     if constexpr (inertia) {
-        const double a = 4.5 * omega_plus, b = 9 * (1 - 0.5 * omega_plus);
+        const S a = S(4.5) * omega_plus, b = 9 * (1 - S(0.5) * omega_plus);
         for (int d = 0; d < 3; ++d) s.E[d] = a * s.rho_u[d] + b * total_force[d];
-        const V third = (1.0 / 3) * (s.rho_u[0] * s.E[0] + s.rho_u[1] * s.E[1] + s.rho_u[2] * s.E[2]);
+        // A third, as far as weights add up to one.
+        const V third = S(multiple_of_least<L>(1.0 / 3)) *
+                        (S(kLeastWeight<L>) * (s.rho_u[0] * s.E[0] + s.rho_u[1] * s.E[1] + s.rho_u[2] * s.E[2]));
         s.even_0 -= third * s.inverse_rho;
     }
 }
@@ -141,20 +181,23 @@ template <class V>
 template <class L, bool inertia, class V>
 [[gnu::always_inline]] inline Seen<V> collide_fluid(V (&f)[L::Q], const CollisionParameters& p)
 {
-    const double omega_plus = p.rates.omega_plus, omega_minus = p.rates.omega_minus;
+    using S = Scalar<V>;
+    // What is kept and what is not are together 1, exactly.
+    const S keep_even = 1 - static_cast<S>(p.rates.omega_plus), keep_odd = 1 - static_cast<S>(p.rates.omega_minus);
+    const S omega_plus = 1 - keep_even, omega_minus = 1 - keep_odd;
     const Moments<V> m = moments<L>(f);
     Sources<V> s;
-    s.inverse_rho = V{} + 1.0;
+    s.inverse_rho = V{} + S(1);
     if constexpr (inertia) s.inverse_rho = 1 / (1 + m.drho);
     V force[3];
     for (int d = 0; d < 3; ++d) {
-        const double F = p.body_force[d];
-        s.rho_u[d] = m.j[d] + 0.5 * F;
+        const S F = static_cast<S>(p.body_force[d]);
+        s.rho_u[d] = m.j[d] + S(0.5) * F;
         force[d] = V{} + F;
-        s.odd[d] = (3 * omega_minus) * s.rho_u[d] + 3 * (1 - 0.5 * omega_minus) * F;
+        s.odd[d] = (S(0.5) * omega_minus) * s.rho_u[d] + S(0.5) * (1 - S(0.5) * omega_minus) * F;
     }
-    add_even_sources<inertia>(omega_plus, m.drho, force, s);
-    relax<L, inertia>(f, omega_plus, omega_minus, s);
+    add_even_sources<L, inertia>(omega_plus, m.drho, force, s);
+    relax<L, inertia>(f, keep_even, keep_odd, s);
     return {u2(s), m.drho};
 }
 
@@ -234,13 +277,13 @@ template <class L, bool inertia, bool at_rest = false, class V>
         const V momentum = mo.j[d] + 0.5 * mF;
         const V F_s = at_rest ? -kk * momentum : kk * (rho * cell.u_s[d] - momentum);
         sources.rho_u[d] = momentum + 0.5 * F_s;
-        sources.odd[d] = 3 * (omega_minus * momentum + (1 - 0.5 * omega_minus) * mF + F_s);
+        sources.odd[d] = 0.5 * (omega_minus * momentum + (1 - 0.5 * omega_minus) * mF + F_s);
         total_force[d] = mF + F_s;
         out.force[d] = F_s;
         out.momentum[d] = mo.j[d] + total_force[d];
     }
-    add_even_sources<inertia>(p.rates.omega_plus, mo.drho, total_force, sources);
-    relax<L, inertia>(f, p.rates.omega_plus, omega_minus, sources);
+    add_even_sources<L, inertia>(p.rates.omega_plus, mo.drho, total_force, sources);
+    relax<L, inertia>(f, 1 - p.rates.omega_plus, 1 - omega_minus, sources);
     return {u2(sources), m * mo.drho};
 }
 
