@@ -36,18 +36,22 @@ struct RowSaturation {
     /// What stands in a block: no solid, solids, or also one that turns populations round (kBounce).
     enum Cover : std::uint8_t { kFluid, kSolids, kWall };
 
+    struct alignas(kBlock * sizeof(double)) Block {  // a vector that crosses no border of a cache line
+        double cells[kBlock]{};
+    };
+
     explicit RowSaturation(int nx)
-        : stride(padded_to_blocks(nx))
-        , values(kColumns * stride, 0.0)
-        , covered(stride / kBlock, kFluid)
+        : stride((padded_to_blocks(nx) / kBlock | 1) * kBlock)
+        , values(kColumns * (stride / kBlock))
+        , covered(padded_to_blocks(nx) / kBlock, kFluid)
     {
     }
-    double* column(int c) noexcept { return values.data() + static_cast<std::size_t>(c) * stride; }
-    const double* column(int c) const noexcept { return values.data() + static_cast<std::size_t>(c) * stride; }
+    double* column(int c) noexcept { return values.data()->cells + static_cast<std::size_t>(c) * stride; }
+    const double* column(int c) const noexcept { return values.data()->cells + static_cast<std::size_t>(c) * stride; }
     void clear() noexcept { std::fill(covered.begin(), covered.end(), kFluid); }
 
     std::size_t stride;
-    std::vector<double> values;
+    std::vector<Block> values;
     std::vector<std::uint8_t> covered;  ///< per block: a Cover
     bool fixed = false;                 ///< all solids are at rest, and nobody asks for the weight
 };

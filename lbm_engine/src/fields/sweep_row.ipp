@@ -118,8 +118,9 @@ template <class L, bool inertia, Kind kind, int W, class T>
 [[gnu::noinline]] void sweep_rest(T* const (&p)[L::Q], int x, int end, Slot ahead,
                                   const CollisionParameters& parameters, RowSaturation* row, FlowWatch& watch)
 {
+    const CollisionParameters own = parameters;
     WatchPack<W, Number<kind, T>> pack;
-    for (; x + W <= end; x += W) sweep_cells<L, inertia, kind, W>(p, x, ahead, parameters, row, pack);
+    for (; x + W <= end; x += W) sweep_cells<L, inertia, kind, W>(p, x, ahead, own, row, pack);
     note(pack, watch);
     if constexpr (W > 1)
         if (x < end) sweep_rest<L, inertia, kind, W / 2>(p, x, end, ahead, parameters, row, watch);
@@ -138,12 +139,13 @@ template <class L, bool inertia, Kind kind, class T>
                                     const CollisionParameters& parameters, RowSaturation& row, RowWatch<kind, T>& watch)
 {
     constexpr int W = kWidest<kind, T>;
+    const CollisionParameters own = parameters;
     int x = begin * kBlock;
     const int end_x = end * kBlock;
     if constexpr (kind != Kind::fluid)
         for (int i = x; i < end_x; i += W) weigh<kind, W>(parameters, row, i);
     auto seen = watch.packs;
-    for (; x + W <= end_x; x += W) sweep_cells<L, inertia, kind, W>(p, x, ahead, parameters, &row, seen);
+    for (; x + W <= end_x; x += W) sweep_cells<L, inertia, kind, W>(p, x, ahead, own, &row, seen);
     watch.packs = seen;
     if constexpr (W > kBlock)
         if (x < end_x) sweep_rest<L, inertia, kind, W / 2>(p, x, end_x, ahead, parameters, &row, watch.rest);

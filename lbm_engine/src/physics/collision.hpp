@@ -81,17 +81,22 @@ template <class L, int i, class V>
 template <class L, class V>
 [[gnu::always_inline]] inline Moments<V> moments(const V (&f)[L::Q])
 {
-    Moments<V> m{f[0], {V{}, V{}, V{}}};
-    V sums[3]{};  // side by side: one long chain of additions would be waited for
+    Moments<V> m;
+    V sums[3];  // side by side: one long chain of additions would be waited for
     detail::for_pairs<L>([&]<int a, int b>() __attribute__((always_inline)) {
-        sums[a / 2 % 3] += f[a] + f[b];
-        const V difference = f[a] - f[b];
+        const V sum = f[a] + f[b], difference = f[a] - f[b];
+        if constexpr (a < 6) {
+            sums[a / 2] = sum;
+            m.j[a / 2] = difference;
+            return;
+        }
+        sums[a / 2 % 3] += sum;
         for (int d = 0; d < 3; ++d) {
             if (L::c[a][d] > 0) m.j[d] += difference;
             if (L::c[a][d] < 0) m.j[d] -= difference;
         }
     });
-    m.drho += sums[0] + sums[1] + sums[2];
+    m.drho = f[0] + (sums[0] + sums[1] + sums[2]);
     return m;
 }
 
@@ -104,11 +109,15 @@ constexpr int multiple_of_least(double sum_of_weights)
     return static_cast<int>(sum_of_weights / kLeastWeight<L> + 0.5);
 }
 
-/// The sources of a relaxation. With rho u and E, the even ones are w (even_0 + (c.rho u) (c.E) / rho) in population i, the odd ones 6 w c.odd.
+/**
+ * The sources of a relaxation. With the least weight w_0 and the trace of (rho u) E / rho, the even ones are w / w_0 (even + (c.rho u) (c.E) / rho) in population i, the odd ones
+ * 6 w c.odd.
+ */
 template <class V>
 struct Sources {
-    V even_0, inverse_rho, rho_u[3], E[3];
-    V odd[3];  ///< half of the momentum that they bring
+    V mass;    ///< that the even ones bring
+    V odd[3];  ///< half of the momentum that the odd ones bring
+    V even, trace, inverse_rho, rho_u[3], E[3];
 };
 
 /**
@@ -124,20 +133,19 @@ template <class L, bool inertia, class V, class Rate>
 [[gnu::always_inline]] inline void relax(V (&f)[L::Q], Scalar<V> keep_even, const Rate& keep_odd, const Sources<V>& s)
 {
     using S = Scalar<V>;
-    constexpr S least = kLeastWeight<L>;
-    const V even_0 = least * s.even_0;
     V along_axes[3], others[3];
     for (int d = 0; d < 3; ++d) {
-        others[d] = (6 * least) * s.odd[d];
+        others[d] = S(6 * kLeastWeight<L>) * s.odd[d];
         along_axes[d] = s.odd[d] - S(multiple_of_least<L>(1.0 / 6 - L::w(1))) * others[d];
     }
-    f[0] = keep_even * f[0] + (s.even_0 - S(multiple_of_least<L>(1 - L::w(0))) * even_0);
+    V moving = S(multiple_of_least<L>(1 - L::w(0))) * s.even;
+    if constexpr (inertia) moving += S(multiple_of_least<L>(1.0 / 3)) * s.trace;
+    f[0] = keep_even * f[0] + (s.mass - moving);
     detail::for_pairs<L>([&]<int a, int b>() __attribute__((always_inline)) {
         // Products with w are the same for many directions, and known before their sums are.
         constexpr S w = multiple_of_least<L>(L::w(a));
-        V even = w * even_0;
-        if constexpr (inertia)
-            even += (w * least * s.inverse_rho) * (detail::c_dot<L, a>(s.rho_u) * detail::c_dot<L, a>(s.E));
+        V even = w * s.even;
+        if constexpr (inertia) even += (w * s.inverse_rho) * (detail::c_dot<L, a>(s.rho_u) * detail::c_dot<L, a>(s.E));
         const V odd = L::w(a) == L::w(1) ? detail::c_dot<L, a>(along_axes) : w * detail::c_dot<L, a>(others);
         const V new_even = (S(0.5) * keep_even) * (f[a] + f[b]) + even;
         const V new_odd = (S(0.5) * keep_odd) * (f[a] - f[b]) + odd;
@@ -157,14 +165,14 @@ template <class L, bool inertia, class V>
                                                     Sources<V>& s)
 {
     using S = Scalar<V>;
-    s.even_0 = omega_plus * drho;
+    constexpr S least = kLeastWeight<L>;  // taken into E
+    s.mass = omega_plus * drho;
+    s.even = (least * omega_plus) * drho;
     if constexpr (inertia) {
-        const S a = S(4.5) * omega_plus, b = 9 * (1 - S(0.5) * omega_plus);
+        const S a = (S(4.5) * least) * omega_plus, b = (9 * least) * (1 - S(0.5) * omega_plus);
         for (int d = 0; d < 3; ++d) s.E[d] = a * s.rho_u[d] + b * total_force[d];
-        // A third, as far as weights add up to one.
-        const V third = S(multiple_of_least<L>(1.0 / 3)) *
-                        (S(kLeastWeight<L>) * (s.rho_u[0] * s.E[0] + s.rho_u[1] * s.E[1] + s.rho_u[2] * s.E[2]));
-        s.even_0 -= third * s.inverse_rho;
+        s.trace = (s.rho_u[0] * s.E[0] + s.rho_u[1] * s.E[1] + s.rho_u[2] * s.E[2]) * s.inverse_rho;
+        s.even -= S(1.0 / 3) * s.trace;
     }
 }
 
@@ -194,7 +202,7 @@ template <class L, bool inertia, class V>
         const S F = static_cast<S>(p.body_force[d]);
         s.rho_u[d] = m.j[d] + S(0.5) * F;
         force[d] = V{} + F;
-        s.odd[d] = (S(0.5) * omega_minus) * s.rho_u[d] + S(0.5) * (1 - S(0.5) * omega_minus) * F;
+        s.odd[d] = (S(0.5) * omega_minus) * m.j[d] + S(0.5) * F;
     }
     add_even_sources<L, inertia>(omega_plus, m.drho, force, s);
     relax<L, inertia>(f, keep_even, keep_odd, s);
@@ -277,8 +285,8 @@ template <class L, bool inertia, bool at_rest = false, class V>
         const V momentum = mo.j[d] + 0.5 * mF;
         const V F_s = at_rest ? -kk * momentum : kk * (rho * cell.u_s[d] - momentum);
         sources.rho_u[d] = momentum + 0.5 * F_s;
-        sources.odd[d] = 0.5 * (omega_minus * momentum + (1 - 0.5 * omega_minus) * mF + F_s);
         total_force[d] = mF + F_s;
+        sources.odd[d] = 0.5 * (omega_minus * mo.j[d] + total_force[d]);
         out.force[d] = F_s;
         out.momentum[d] = mo.j[d] + total_force[d];
     }

@@ -34,11 +34,12 @@ public:
 
 private:
     std::array<int, 3> first_{}, count_{};
-    std::array<std::vector<double>, 3> plane_;  // planes relative to the centre, clamped to +-R
-    std::array<std::vector<double>, 3> g1_;     // G2(|a|, 0)
-    std::array<std::vector<double>, 3> g2_;     // G2 of planes (x,y), (y,z), (x,z)
-    std::size_t line_ = 0;                      // between rows of fractions
-    std::vector<double> corner_, fraction_;
+    std::array<std::vector<double>, 3> plane_;           // planes relative to the centre, clamped to +-R
+    std::array<std::vector<double>, 3> g1_;              // G2(|a|, 0)
+    std::array<std::vector<double>, 3> g2_;              // G2 of planes (x,y), (y,z), (x,z)
+    std::size_t line_ = 0;                               // between rows of fractions
+    std::vector<double> yz_, corner_, along_y_, mixed_;  // while evaluating
+    std::vector<double> fraction_;
 };
 
 }  // namespace lbm
