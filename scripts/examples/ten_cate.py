@@ -1,6 +1,6 @@
 """A sphere settles in a closed box of silicone oil: the experiments of ten Cate et al. (2002), Phys. Fluids 14, 4012.
 
-    scripts/yade -j2 -x -n scripts/examples/ten_cate.py [--case E1 E3] [--cells-per-diameter 10] [--output DIR]
+    scripts/yade -j2 -x -n scripts/examples/ten_cate.py [--case E1 E3] [--cells-per-diameter 10] [--magic-parameter 0.0833] [--output DIR]
 
 Released at rest 120 mm above the floor; the run ends one cell above it. Prints the peak velocities beside the measured
 ones and beside the terminal velocity in the box that follows from the drag of a sphere between six walls. Writes
@@ -60,7 +60,7 @@ def read_cases():
 class Fall:
     """One case: the scene, and what is recorded of it."""
 
-    def __init__(self, name, case, dx):
+    def __init__(self, name, case, dx, magic_parameter):
         self.name, self.case, self.dx = name, case, dx
         nu = case["viscosity"] / case["density"]
         viscous_step = (TAU - 0.5) / 3 * dx**2 / nu
@@ -70,7 +70,7 @@ class Fall:
         O.materials.append(FrictMat(density=DENSITY, young=1e6, poisson=0.3, frictionAngle=0.5))
         self.tau = 0.5 + 3 * nu * O.dt / dx**2
         self.fluid = LbmEngine(lower=(0, 0, 0), upper=BOX, dx=dx, density=case["density"], viscosity=case["viscosity"],
-                               tau=self.tau, gravity=GRAVITY, boundary=["noSlip"] * 6, label="fluid")
+                               tau=self.tau, gravity=GRAVITY, boundary=["noSlip"] * 6, magicParameter=magic_parameter, label="fluid")
         self.ball = O.bodies.append(utils.sphere((BOX[0] / 2, BOX[1] / 2, RELEASE + DIAMETER / 2), DIAMETER / 2))
         O.engines = [
             ForceResetter(),
@@ -171,6 +171,8 @@ def arguments():
                         help="which experiments: E1, E2, E3, E4 or all (default)")
     parser.add_argument("--cells-per-diameter", type=float, default=10, metavar="N",
                         help="resolution (default: 10); the nearest that divides the box is taken")
+    parser.add_argument("--magic-parameter", type=float, default=math.nan, metavar="L",
+                        help="Lambda of the two relaxation times (default: the engine's, 1/8)")
     parser.add_argument("--output", default=os.path.join("results", "ten_cate"), metavar="DIR",
                         help="folder for tables and the plot")
     return parser.parse_args(sys.argv[1:])
@@ -182,7 +184,7 @@ names = CASES if "all" in options.case else [name for name in CASES if name in o
 cases, results, histories = read_cases(), [], []
 begin = time.monotonic()
 for name in names:
-    fall = Fall(name, cases[name], cell_size(options.cells_per_diameter))
+    fall = Fall(name, cases[name], cell_size(options.cells_per_diameter), options.magic_parameter)
     results.append(fall.run())
     histories.append(fall.history)
     tools.write_rows(os.path.join(folder, f"{name}.csv"), ("time_s", "velocity_m_s", "gap_over_d"), fall.history,
