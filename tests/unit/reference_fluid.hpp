@@ -113,13 +113,12 @@ private:
                 double most = 0;
                 for (const Image& other : images[share.solid]) {
                     const Vec3 s = share.r - other.from_me;
-                    const double widest = 2 * std::min(R, other.radius),
-                                 facing = -2 * dot(share.r, s) / (R * other.radius);
+                    const double widest = std::min(R, other.radius), facing = -2 * dot(share.r, s) / (R * other.radius);
                     const double R2 = other.radius;
                     const double h = std::max(0.0, (r2 - R * R) / (2 * R) + (dot(s, s) - R2 * R2) / (2 * R2));
                     if (facing <= 0 || h >= widest) continue;
                     const double left = 1 - h / widest;
-                    most = std::max(most, 3.5 / (h * h + 3.9) * left * left * std::min(facing, 1.0));
+                    most = std::max(most, 3.7 / (h * h + 4) * left * std::min(facing, 1.0));
                 }
                 const double more = most * share.epsilon * (1 - share.epsilon);
                 share.epsilon += more;

@@ -125,12 +125,12 @@ std::vector<std::vector<int>> SolidMap::earlier_of_body(const std::vector<Lattic
 void SolidMap::search_near(const std::vector<LatticeSolid>& solids)
 {
     centres_.clear();
-    double largest = 0;
+    largest_ = 0;
     for (const LatticeSolid& solid : solids) {
         centres_.push_back(solid.geometry.centre);
-        if (solid.geometry.shape == Shape::sphere) largest = std::max(largest, solid.geometry.radius);
+        if (solid.geometry.shape == Shape::sphere) largest_ = std::max(largest_, solid.geometry.radius);
     }
-    neighbours_.sort(centres_, narrow_reach(largest, largest));
+    neighbours_.sort(centres_, narrow_reach(largest_, largest_));
 }
 
 /// Whether a point is nearer than its periodic images: of a rigid body, then, the member and not its image.
@@ -145,15 +145,20 @@ bool SolidMap::is_nearest(const Vec3& image, const Vec3& to) const
 void SolidMap::find_opposite(std::size_t solid, const std::vector<LatticeSolid>& solids,
                              std::vector<Opposite>& opposite) const
 {
+    constexpr std::size_t kMostly = 24;  // spheres of one size have fewer: no memory is asked for while they move
     opposite.clear();
+    opposite.reserve(kMostly);
     const LatticeSolid& one = solids[solid];
     if (!thicken_ || one.geometry.shape != Shape::sphere) return;
     const Vec3& centre = one.geometry.centre;
     const double R = one.geometry.radius;
+    const double farthest = narrow_reach(R, largest_);
     const auto add = [&](const Vec3& image, double radius) {
         const Vec3 apart = image - centre;
-        const double reach = narrow_reach(R, radius), apart2 = dot(apart, apart);
-        if (apart2 > 0 && apart2 < reach * reach) opposite.emplace_back(apart, radius);
+        const double apart2 = dot(apart, apart);
+        if (apart2 >= farthest * farthest || apart2 == 0) return;
+        const double reach = narrow_reach(R, radius);
+        if (apart2 < reach * reach) opposite.emplace_back(apart, radius);
     };
     const auto add_mirrored = [&](const Vec3& image, double radius) {
         for (int face = 0; face < 6; ++face) {

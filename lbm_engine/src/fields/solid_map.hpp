@@ -162,6 +162,7 @@ private:
     Neighbours neighbours_;
     std::vector<std::uint8_t> moved_;              // while updating
     std::vector<Vec3> centres_;                    // while searching
+    double largest_ = 0;                           // radius, the same
     std::vector<SolidFraction> fractions_;         // for each thread
     std::vector<std::vector<Opposite>> opposite_;  // the same
     std::vector<RowSolid> row_solids_;

@@ -134,7 +134,7 @@ constexpr int kChunk = 8;
 constexpr double kCut = 0.87;
 
 /// Pores that are wider than this, with the larger of two curvatures, are not narrow.
-double widest_pore(double curvature) { return 2 / curvature; }
+double widest_pore(double curvature) { return 1 / curvature; }
 
 /// The pore between a sphere and what stands opposite: what does not depend on the cell.
 struct Pore {
@@ -166,45 +166,46 @@ struct Pore {
     }
 };
 
-/// A row of cells.
-struct Row {
-    std::uint32_t place;  ///< of the row
-    Vec3 first;           ///< centre of its first cell, from that of the sphere
-    int begin, end;       ///< cells inside the lattice
-};
+/// Where a list of cells goes: their places in a block of cells along x, y, z.
+struct CellList {
+    std::int16_t *x, *y, *z;
+    int count;
 
-/// Lists cells of a row between two radii; writes whole chunks, of which the last one does not count to its end.
-LBM_EACH_ISA
-int list_ring(const Row row, double inner, double outer, std::uint32_t* cell, double* x, double* y, double* z)
-{
-    const double across2 = row.first[1] * row.first[1] + row.first[2] * row.first[2];
-    const double outer2 = outer * outer - across2, inner2 = inner * inner - across2;
-    if (outer2 <= 0) return 0;
-    const double half = std::sqrt(outer2), hollow = inner2 > 0 ? std::sqrt(inner2) : 0;
-    const double ends[4] = {-half, -hollow, hollow, half};
-    int count = 0;
-    for (int side = hollow > 0 ? 0 : 2; side < 4; side += 2) {
-        const double from = hollow > 0 ? ends[side] : -half;
-        int i = std::max(row.begin, static_cast<int>(from - row.first[0] + 1));
-        const int end = std::min(row.end, static_cast<int>(ends[side + 1] - row.first[0] + 1));
-        for (; i < end; i += kChunk) {
-            for (int l = 0; l < kChunk; ++l) {
-                cell[count + l] = row.place + i + l;
-                x[count + l] = row.first[0] + (i + l);
-                y[count + l] = row.first[1];
-                z[count + l] = row.first[2];
-            }
+    /// Adds cells of a row from begin to end; writes whole chunks, of which the last one does not count to its end.
+    void add(int begin, int end, int j, int k)
+    {
+        for (int i = begin; i < end; i += kChunk) {
+            for (int l = 0; l < kChunk; ++l) x[count + l] = static_cast<std::int16_t>(i + l);
+            for (int l = 0; l < kChunk; ++l) y[count + l] = static_cast<std::int16_t>(j);
+            for (int l = 0; l < kChunk; ++l) z[count + l] = static_cast<std::int16_t>(k);
             count += std::min(kChunk, end - i);
         }
     }
-    return count;
+};
+
+/// Coordinates along an axis of listed cells, the first one of all at `first`.
+LBM_EACH_ISA
+void coordinates(const std::int16_t* cell, int count, double first, double* x)
+{
+    for (int i = 0; i < count; ++i) x[i] = first + cell[i];
+}
+
+/// Half widths of a ring in rows at y = first, first + 1 ...: of what is within the outer radius and the inner one, with squares z^2 less.
+LBM_EACH_ISA
+void half_widths(double first, int count, double outer2, double inner2, double* reach, double* hollow)
+{
+    for (int j = 0; j < count; ++j) {
+        const double y2 = (first + j) * (first + j), out = outer2 - y2, in = inner2 - y2;
+        reach[j] = std::sqrt(out > 0 ? out : 0);
+        hollow[j] = std::sqrt(in > 0 ? in : 0);
+    }
 }
 
 /// Raises the thickening of cells by what a pore asks for; x, y, z: their centres as seen from that of the sphere.
 LBM_EACH_ISA
 void narrow(const Pore pore, const double* x, const double* y, const double* z, int count, double* thickening)
 {
-    constexpr double kStrength = 3.5, kWidth2 = 3.9;  // fitted: docs/physics.md
+    constexpr double kStrength = 3.7, kWidth2 = 4;  // fitted: docs/physics.md
     const double tx = pore.towards[0], ty = pore.towards[1], tz = pore.towards[2];
     const double curvature = 0.5 * (pore.curvature1 + pore.curvature2), curvature2 = pore.curvature2;
     const double distance = pore.distance, over_widest = 1 / pore.widest, twice_curvature1 = 2 * pore.curvature1;
@@ -213,7 +214,7 @@ void narrow(const Pore pore, const double* x, const double* y, const double* z, 
         const double width = curvature * r2 - along + distance, h = width > 0 ? width : 0;
         const double narrow = 1 - h * over_widest, in_reach = narrow > 0 ? narrow : 0;
         const double facing = twice_curvature1 * (along - curvature2 * r2);  // -2 r.s / (R1 R2)
-        const double t = kStrength / (h * h + kWidth2) * in_reach * in_reach * (facing < 1 ? facing : 1);
+        const double t = kStrength / (h * h + kWidth2) * in_reach * (facing < 1 ? facing : 1);
         thickening[i] = t > thickening[i] ? t : thickening[i];
     }
 }
@@ -257,12 +258,12 @@ double SolidFraction::thicken(const SolidGeometry& sphere, const std::vector<Opp
             return cut_.planes[static_cast<int>(std::clamp<double>(sphere.centre[2] + z - first_[2], 0, count_[2]))];
         };
         const int begin = plane(reach.begin), end = plane(reach.end + 1);
-        narrow(pore, cut_.x.data() + begin, cut_.y.data() + begin, cut_.z.data() + begin, end - begin,
-               cut_.thickening.data() + begin);
+        narrow(pore, cut_.centre[0].data() + begin, cut_.centre[1].data() + begin, cut_.centre[2].data() + begin,
+               end - begin, cut_.thickening.data() + begin);
     }
     double added = 0;
     for (int i = 0; i < cut_.planes[count_[2]]; ++i) {
-        double& fraction = own_[cut_.cell[i]];
+        double& fraction = own_row(cut_.cell[1][i], cut_.cell[2][i])[cut_.cell[0][i]];
         const double more = cut_.thickening[i] * fraction * (1 - fraction);
         fraction += more;
         added += more;
@@ -281,21 +282,30 @@ void SolidFraction::gather_ring(const Vec3& centre, double inner, double outer)
         begin[d] = std::clamp(-first_[d], 0, count_[d]);
         end[d] = std::clamp(n_[d] - first_[d], begin[d], count_[d]);
     }
-    for (auto* list : {&cut_.x, &cut_.y, &cut_.z}) list->resize(own_.size() + kChunk);
-    cut_.cell.resize(own_.size() + kChunk);
+    for (auto& cell : cut_.cell) cell.resize(own_.size() + kChunk);
     cut_.planes.assign(count_[2] + 1, 0);
-    int count = 0;
+    cut_.reach.resize(count_[1]);
+    cut_.hollow.resize(count_[1]);
+    CellList list{cut_.cell[0].data(), cut_.cell[1].data(), cut_.cell[2].data(), 0};
+    const auto column = [&](double x) { return std::clamp(static_cast<int>(x - first[0] + 1), begin[0], end[0]); };
     for (int k = 0; k < count_[2]; ++k) {
-        if (begin[2] <= k && k < end[2])
-            for (int j = begin[1]; j < end[1]; ++j) {
-                const Row row{static_cast<std::uint32_t>(own_row(j, k) - own_.data()),
-                              first + Vec3{0, double(j), double(k)}, begin[0], end[0]};
-                count += list_ring(row, inner, outer, cut_.cell.data() + count, cut_.x.data() + count,
-                                   cut_.y.data() + count, cut_.z.data() + count);
-            }
-        cut_.planes[k + 1] = count;
+        const double z = first[2] + k;
+        half_widths(first[1], count_[1], outer * outer - z * z, inner * inner - z * z, cut_.reach.data(),
+                    cut_.hollow.data());
+        for (int j = begin[1]; j < end[1] && begin[2] <= k && k < end[2]; ++j) {
+            const double reach = cut_.reach[j], hollow = cut_.hollow[j];
+            if (reach == 0) continue;
+            const int middle = column(-hollow);
+            list.add(column(-reach), middle, j, k);
+            list.add(std::max(middle, column(hollow)), column(reach), j, k);
+        }
+        cut_.planes[k + 1] = list.count;
     }
-    cut_.thickening.assign(count, 0.0);
+    for (int d = 0; d < 3; ++d) {
+        cut_.centre[d].resize(cut_.cell[d].size());
+        coordinates(cut_.cell[d].data(), list.count, first[d], cut_.centre[d].data());
+    }
+    cut_.thickening.assign(list.count, 0.0);
 }
 
 void SolidFraction::make_own()

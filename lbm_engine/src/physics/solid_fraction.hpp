@@ -68,7 +68,7 @@ public:
      * A pressure gradient drives flow through cut cells, too much by a volume that does not depend on the width of the pore; against the flow of a narrow one this
      * counts (docs/physics.md, "Narrow pores"). With r and s the places of a cell as seen from the two centres,
      *
-     *     t = 3.5 / (h^2 + 3.9) (1 - h / w)^2 min(1, -2 r.s / (R1 R2)),   h = (r^2 - R1^2) / (2 R1) + (s^2 - R2^2) / (2 R2),   w = 2 min(R1, R2)
+     *     t = 3.7 / (h^2 + 4) (1 - h / w) min(1, -2 r.s / (R1 R2)),   h = (r^2 - R1^2) / (2 R1) + (s^2 - R2^2) / (2 R2),   w = min(R1, R2)
      *
      * h being the width of the pore; the last factor fades it out where surfaces stand across to each other. The largest t counts.
      *
@@ -106,10 +106,11 @@ private:
     SphereFraction sphere_;
     std::vector<double> own_;  // fractions that are not a lone sphere's
     struct {
-        std::vector<std::uint32_t> cell;  // place in own_
-        std::vector<double> x, y, z;      // of its centre, from that of the sphere
+        std::array<std::vector<std::int16_t>, 3> cell;  // x, y, z of count()
+        std::array<std::vector<double>, 3> centre;      // from that of the sphere
         std::vector<double> thickening;
         std::vector<int> planes;               // first cell of each plane, and an end
+        std::vector<double> reach, hollow;     // of rows of a plane
     } cut_;                                    // cells, while thickening
     std::array<std::vector<double>, 3> axis_;  // while evaluating a box along the axes
 };
