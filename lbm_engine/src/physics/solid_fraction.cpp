@@ -129,6 +129,7 @@ bool is_hidden(const std::vector<SolidGeometry>& solids, const Vec3& p)
 
 /// Cells that are written at a time.
 constexpr int kChunk = 8;
+constexpr int whole_chunks(int count) { return (count + kChunk - 1) / kChunk * kChunk; }
 
 /// Half a diagonal: the centres of cells that a surface cuts are so near it.
 constexpr double kCut = 0.87;
@@ -283,9 +284,9 @@ void SolidFraction::gather_ring(const Vec3& centre, double inner, double outer)
         end[d] = std::clamp(n_[d] - first_[d], begin[d], count_[d]);
     }
     for (auto& cell : cut_.cell) cell.resize(own_.size() + kChunk);
-    cut_.planes.assign(count_[2] + 1, 0);
-    cut_.reach.resize(count_[1]);
-    cut_.hollow.resize(count_[1]);
+    cut_.planes.assign(whole_chunks(count_[2] + 1), 0);  // so that a row more asks for no memory
+    cut_.reach.resize(whole_chunks(count_[1]));
+    cut_.hollow.resize(whole_chunks(count_[1]));
     CellList list{cut_.cell[0].data(), cut_.cell[1].data(), cut_.cell[2].data(), 0};
     const auto column = [&](double x) { return std::clamp(static_cast<int>(x - first[0] + 1), begin[0], end[0]); };
     for (int k = 0; k < count_[2]; ++k) {
@@ -305,6 +306,7 @@ void SolidFraction::gather_ring(const Vec3& centre, double inner, double outer)
         cut_.centre[d].resize(cut_.cell[d].size());
         coordinates(cut_.cell[d].data(), list.count, first[d], cut_.centre[d].data());
     }
+    cut_.thickening.reserve(cut_.cell[0].size());
     cut_.thickening.assign(list.count, 0.0);
 }
 
