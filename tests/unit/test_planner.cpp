@@ -164,10 +164,11 @@ class Planner : public CppUnit::TestFixture {
     {
         // docs/physics.md, "Which cell size": sphere in a cubic array, and in a box at Re = 30
         CPPUNIT_ASSERT_DOUBLES_EQUAL(0.0022, resolution_error(8.6, 0, 0), 0.0005);
-        CPPUNIT_ASSERT_DOUBLES_EQUAL(0.036, resolution_error(8.6, 0, 0.343), 0.01);
-        CPPUNIT_ASSERT_DOUBLES_EQUAL(0.003, resolution_error(24, 0, 0.343), 0.003);
+        CPPUNIT_ASSERT_DOUBLES_EQUAL(0.0066, resolution_error(8.93, 0, 0.216), 0.001);
+        CPPUNIT_ASSERT_DOUBLES_EQUAL(0.0120, resolution_error(8.68, 0, 0.343), 0.004);
+        CPPUNIT_ASSERT_DOUBLES_EQUAL(0.0084, resolution_error(12.16, 0, 0.343), 0.002);
+        CPPUNIT_ASSERT_DOUBLES_EQUAL(0.013, resolution_error(8, 0, 0.6), 0.005);
         CPPUNIT_ASSERT_DOUBLES_EQUAL(0.0266, resolution_error(9.75, 30.5, 0), 0.006);
-        CPPUNIT_ASSERT_EQUAL(resolution_error(10, 0, 0.4), resolution_error(10, 0, 0.6));
     }
 
     void a_grain_step_is_suggested_that_the_fluid_step_is_a_multiple_of()

@@ -55,11 +55,8 @@ double dividing(const Vec3& lengths, double dx)
 
 double resolution_error(double cells_per_diameter, double reynolds, double solid_fraction)
 {
-    double error = 0.17 + 0.09 * reynolds;
-    if (solid_fraction > 0) {
-        const double gap = std::cbrt(kPi / 6 / std::min(solid_fraction, 0.4)) - 1;
-        error += 0.07 / (gap * gap);
-    }
+    const double dense = std::min(1.0, solid_fraction / 0.3);
+    const double error = 0.17 + 0.09 * reynolds + 0.9 * dense * dense * dense;
     return error / (cells_per_diameter * cells_per_diameter);
 }
 
