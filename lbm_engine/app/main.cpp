@@ -34,7 +34,7 @@ nlohmann::json parse(const std::string& path)
         std::ifstream file(path);
         if (!file || std::filesystem::is_directory(path)) throw lbm::ConfigError(path + ": cannot be read");
         return nlohmann::json::parse(file);
-    } catch (const nlohmann::json::parse_error& error) {
+    } catch (const nlohmann::json::exception& error) {
         throw lbm::ConfigError(path + ": not valid JSON: " + error.what());
     }
 }

@@ -196,6 +196,16 @@ class Results(unittest.TestCase):
         _, pressed, _ = run(array(acceleration=[0, 0, 0], boundaries={"x": ends}, inertia=False, stop=stop))
         self.assertAlmostEqual(pressed["permeability"] / driven["permeability"], 1, delta=0.02)
 
+    def test_a_quarter_between_planes_of_symmetry_is_the_whole(self):
+        for c in (0.125, 0.5):  # with wide and with narrow pores
+            whole = array(c=c)
+            mirror = {"min": {"type": "freeSlip"}, "max": {"type": "freeSlip"}}
+            quarter = dict(whole, domain={"cells": [8, 4, 4], "dx": DX}, boundaries={"y": mirror, "z": mirror})
+            results = [run(case)[1] for case in (whole, quarter)]
+            velocity, force = ([r["superficial_velocity"][0] for r in results], [r["solids"][0]["force"][0] for r in results])
+            self.assertAlmostEqual(velocity[1] / velocity[0], 1, delta=1e-6)  # both steady to 1e-7
+            self.assertAlmostEqual(4 * force[1] / force[0], 1, delta=1e-6)
+
     def test_the_flow_is_written_for_paraview(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "flow.vti")
@@ -249,10 +259,13 @@ class Messages(unittest.TestCase):
         self.refused("solids[0].radius: must be finite and > 0", array(solids=[dict(free, radius=0)]))
         self.refused("solids[0].half_extents: must be finite and > 0", array(solids=[dict(free, shape="box", half_extents=[DX, 0, DX])]))
         self.refused("solids[0].orientation: must be a unit quaternion", array(solids=[dict(free, shape="box", half_extents=[DX] * 3, orientation=[0, 0, 0, 0])]))
-        self.refused("larger than the box", array(solids=[{"center": [0, 0, 0], "radius": 5 * DX}]))
+        self.refused("larger than the box along x", array(solids=[{"center": [0, 0, 0], "radius": 5 * DX}]))
+        walls = {axis: {"min": {"type": "noSlip"}, "max": {"type": "noSlip"}} for axis in "xyz"}
+        self.refused("larger than twice the box", array(boundaries=walls, solids=[{"center": [0, 0, 0], "radius": 900 * DX}]))
 
     def test_text_that_is_no_case(self):
         self.refused("not valid JSON", "{")
+        self.refused("not valid JSON", json.dumps(array()).replace("1.0", "1e999"))
         self.refused("must be an object", "[]")
         done = subprocess.run([PROGRAM, "run", "/nowhere.json"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)

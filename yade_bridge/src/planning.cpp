@@ -29,9 +29,11 @@ void check_spheres(const Settings& s, const std::vector<lbm::Solid>& solids)
                                    "; dx <= " + text(solid.radius / lbm::kMinRadiusInCells) + " would do");
         for (int axis = 0; axis < 3; ++axis) {
             const double length = s.upper[axis] - s.lower[axis];
-            if (2 * solid.radius > length * (1 + kSameLength))
-                throw lbm::ConfigError(name + ": the sphere is larger than the fluid's box, " + text(length) +
-                                       " along " + "xyz"[axis]);
+            const bool periodic = s.boundary[2 * axis] == "periodic";
+            if (2 * solid.radius > (periodic ? 1 : 2) * length * (1 + kSameLength))
+                throw lbm::ConfigError(name + ": the sphere is larger than " + (periodic ? "" : "twice ") +
+                                       "the fluid's box, " + text(length) + " along " + "xyz"[axis] +
+                                       "; make the box longer or the sphere smaller");
         }
         for (int axis = 0; axis < 3; ++axis)
             if (!std::isfinite(solid.position[axis] + solid.velocity[axis] + solid.angular_velocity[axis]))

@@ -56,7 +56,7 @@ public:
      * The solids that are in the fluid now. They replace the earlier set: a solid is known by its id, one that was there before
      * keeps its momentum bookkeeping (unless it jumped by more than its radius, or half its thickness), new ones start consistent with the flow around them, the others leave. A
      * solid that has not moved costs nothing. Solids may overlap each other and stand out of faces that are not periodic.
-     * @throws ConfigError  for a radius below two cells, a sphere larger than the box, a box in the fluid thinner than two cells, a turned one longer than a periodic axis, a bore that
+     * @throws ConfigError  for a radius below two cells, a sphere larger than the box (than twice the box along axes that are not periodic), a box in the fluid thinner than two cells, a turned one longer than a periodic axis, a bore that
      *         does not fit, a value that is not finite, an id given twice
      */
     void place_solids(const std::vector<Solid>& solids);

@@ -94,12 +94,13 @@ std::vector<std::string> warnings(const PlanRequest& r, const Plan& p)
     if (p.motion_per_step > 0.1)
         all.push_back(message("surfaces move up to ", p.motion_per_step,
                               " cells per fluid step: above 0.1 the load becomes noisy"));
-    if (p.contact_phase > kWantedContactPhase)
-        all.push_back(message(
-            "contacts ring with up to ", r.contact_frequency, " rad/s, ", p.contact_phase,
-            " times the inverse fluid step: above ", kWantedContactPhase,
-            " the liquid hardly damps them; use a contact law with damping of its own, softer grains, or tau <= ",
-            0.5 + (p.tau - 0.5) * kWantedContactPhase / p.contact_phase));
+    if (p.contact_phase > kWantedContactPhase) {
+        const double tau = 0.5 + (p.tau - 0.5) * kWantedContactPhase / p.contact_phase;
+        all.push_back(message("contacts ring with up to ", r.contact_frequency, " rad/s, ", p.contact_phase,
+                              " times the inverse fluid step: above ", kWantedContactPhase,
+                              " the liquid hardly damps them; use a contact law with damping of its own",
+                              tau >= kMinTau ? message(", softer grains, or tau <= ", tau) : " or softer grains"));
+    }
     return all;
 }
 

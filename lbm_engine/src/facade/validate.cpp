@@ -134,10 +134,13 @@ using Fail = std::function<void(const std::string&)>;
 
 void validate_sphere(const FluidConfig& c, const Solid& s, const Fail& fail)
 {
-    for (int d = 0; d < 3; ++d)
-        if (2 * s.radius > c.cells[d] * c.dx * (1 + 1e-9))
-            fail(message("diameter = ", 2 * s.radius, " m: larger than the box along ", kAxis[d], ", ",
-                         c.cells[d] * c.dx, " m"));
+    for (int d = 0; d < 3; ++d) {
+        // a sphere on a plane of symmetry shows half of itself
+        const bool periodic = c.faces[2 * d].type == FaceType::periodic;
+        if (2 * s.radius > (periodic ? 1 : 2) * c.cells[d] * c.dx * (1 + 1e-9))
+            fail(message("diameter = ", 2 * s.radius, " m: larger than ", periodic ? "" : "twice ", "the box along ",
+                         kAxis[d], ", ", c.cells[d] * c.dx, " m; make the box longer or the sphere smaller"));
+    }
 }
 
 void validate_pipe(const FluidConfig& c, const Solid& s, const Fail& fail)
