@@ -36,7 +36,7 @@ def run(c, seed, diameter, axis, count):
 def runs(quick):
     for c in (0.3, 0.4, 0.5, 0.6):
         for diameter in (8,) if quick else (12, 20) if c == 0.6 else (12,):
-            for seed in range(1, 3 if quick else 6):
+            for seed in range(1, 3 if quick else 4 if diameter == 20 else 6):
                 yield run(c, seed, diameter, seed % 3, COUNT)
         if c in (0.4, 0.6):
             for diameter in (8, 12) if quick else (8, 12, 16, 24):
