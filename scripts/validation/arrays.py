@@ -136,8 +136,8 @@ The constants of the scheme were fitted on the simple cubic array with c = 0.125
 construction and change sign; a slope through them means little. In narrow pores cut cells count more (docs/physics.md, "Narrow pores"), with two constants that were fitted on arrays of c = 0.125 to
 0.68 at 8 to 30 cells per diameter and a random pack; what is left changes sign with the resolution and the array. Cubes of more than 48 cells were run with two offsets, smaller ones with eight.
 
-Face-centred arrays come closer to the exact values slowly (c = 0.5: -1.8, -1.6 and -1.1 % at d = 24, 32 and 48): where the no-slip surface stands depends a little on how it lies to the lattice, by some 0.03 cells, and in dense arrays a few orientations carry the flow.
-Turned by 45 degrees about an axis the same array (25 cells per diameter) has -0.01 and -0.4 % along and across instead of -1.7 %, and the body-centred one -0.9 instead of +0.1 %. With the other set of constants (R, with Lambda = 1/8) these are +0.03 / -0.5 and -0.4 / +0.2 %. Random packs average over orientations.
+Face-centred arrays come closer to the exact values slowly (c = 0.5: -2.2, -1.9 and -1.5 % at d = 16, 24 and 32, one offset): where the no-slip surface stands depends a little on how it lies to the lattice, by some 0.03 cells, and in dense arrays a few orientations carry the flow.
+Turned by 45 degrees about an axis the same array (25 cells per diameter) has -0.1 and -0.4 % across and along it instead of -1.8 %, and the body-centred one -1.0 instead of +0.1 %. With the other set of constants (R, at Lambda = 1/8) these are -0.6 / -0.5 instead of 0.0, and +0.1 / +0.2 instead of -0.4 %. Random packs average over orientations.
 """
 
 

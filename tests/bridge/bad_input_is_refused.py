@@ -128,7 +128,7 @@ def spheres_that_the_lattice_cannot_hold_are_refused():
     for radius, text in (
         (1.9e-3, "sphere 0: radius = 0.0019 is 1.9 cells, must be at least 2; dx <= 0.00095 would do"),
         (NAN, "sphere 0: radius = nan: must be finite and > 0"),
-        (6.1e-3, "larger than the fluid's box"),
+        (12.1e-3, "larger than twice the fluid's box"),
     ):
         O.reset()
         fluid = one_sphere()
