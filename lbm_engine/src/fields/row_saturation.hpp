@@ -16,6 +16,29 @@ inline constexpr int kBlock = 8;
 constexpr std::size_t padded_to_blocks(std::size_t n) { return (n + kBlock - 1) / kBlock * kBlock; }
 
 /**
+ * Populations of the row that will be swept next. Memory is asked for most of them while the cells of this one collide, and for the rest while its solids are served, block by
+ * block: it would idle meanwhile.
+ */
+struct RowAhead {
+    static constexpr int kFirst = 2, kAll = 6;  ///< asked for while solids speak, and in all before and after the sweep
+    std::array<const char*, kAll> populations{};  ///< where they begin
+    int block_bytes = 0;                          ///< 0: there is no such row
+
+    [[gnu::always_inline]] void ask_first(int block) const { ask<0, kFirst>(block); }
+    [[gnu::always_inline]] void ask_rest(int block) const { ask<kFirst, kAll>(block); }
+
+private:
+    template <int begin, int end>
+    [[gnu::always_inline]] void ask(int block) const
+    {
+        if (block_bytes == 0) return;
+            // 1: to be written, 2: into the second level.
+#pragma GCC unroll 6
+        for (int i = begin; i < end; ++i) __builtin_prefetch(populations[i] + block * block_bytes, 1, 2);
+    }
+};
+
+/**
  * One row of cells as the solids see it: sums of what they say to the cells, then what the collision makes of that, then what the cells answer. One per
  * thread. Only covered blocks mean anything; outside the solids their input is zero. Where all solids are fixed, columns of velocities and weights are not used.
  */
@@ -48,12 +71,17 @@ struct RowSaturation {
     }
     double* column(int c) noexcept { return values.data()->cells + static_cast<std::size_t>(c) * stride; }
     const double* column(int c) const noexcept { return values.data()->cells + static_cast<std::size_t>(c) * stride; }
-    void clear() noexcept { std::fill(covered.begin(), covered.end(), kFluid); }
+    void clear() noexcept
+    {
+        std::fill(covered.begin(), covered.end(), kFluid);
+        ahead.block_bytes = 0;
+    }
 
     std::size_t stride;
     std::vector<Block> values;
     std::vector<std::uint8_t> covered;  ///< per block: a Cover
-    bool fixed = false;                 ///< all solids are at rest, and nobody asks for the weight
+    RowAhead ahead;
+    bool fixed = false;  ///< all solids are at rest, and nobody asks for the weight
 };
 
 /// The saturation of cells, and what a solid takes of their answers.

@@ -90,6 +90,7 @@ template <bool fixed>
                       U[2] + W[0] * r[1] - W[1] * r[0]};
         const auto say = [&](int block, const Cells& e, const Cells& at) __attribute__((always_inline))
         {
+            cells.ahead.ask_first(block);
             const bool first = cells.covered[block] == C::kFluid;
             cells.covered[block] = std::max<std::uint8_t>(cells.covered[block], C::kSolids);
             const auto tell = [&](int column, const Cells& term) __attribute__((always_inline))
@@ -124,6 +125,7 @@ template <bool fixed>
         Cells F[3] = {}, xF[3] = {}, P[3] = {}, xPy{}, xPz{}, b{}, br2{};
         const auto hear = [&](int block, const Cells& e, const Cells& at) __attribute__((always_inline))
         {
+            cells.ahead.ask_rest(block);
             const auto in = [&](int column) __attribute__((always_inline))
             {
                 return load<kBlock>(columns + column * cells.stride + block * kBlock);

@@ -15,6 +15,15 @@ RowSaturation& scratch_row(int nx)
     return row;
 }
 
+/// @param next  populations, one row on
+template <class L, class T>
+void look_ahead(const T* next, const Slot (&slot)[L::Q], RowAhead& ahead)
+{
+    for (int i = 0; i < RowAhead::kAll; ++i)
+        ahead.populations[i] = reinterpret_cast<const char*>(next + slot[L::Q - RowAhead::kAll + i]);
+    ahead.block_bytes = kBlock * sizeof(T);
+}
+
 }  // namespace
 
 template <class L, class T>
@@ -35,6 +44,7 @@ FlowWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bo
             Slot slot[L::Q];
             for (int i = 0; i < L::Q; ++i) slot[i] = layout.incoming(i, 0, y, z, populations.odd);
             if (solids.covers(row)) {
+                look_ahead<L>(populations.data() + layout.row, slot, cells.ahead);
                 solids.saturate(row, cells);
                 solids.prefetch(row + 1);
                 sweep_row(populations.data(), slot, nx, layout.row, p, &cells, watch);

@@ -24,7 +24,7 @@ struct WatchPack {
 };
 
 // Unrolled, so that the populations live in registers.
-template <class L, class V, class T>
+template <class L, int asked, class V, class T>
 [[gnu::always_inline]] inline void load_all(T* const (&p)[L::Q], int x, Slot ahead, V (&f)[L::Q])
 {
     constexpr int kLanes = sizeof(V) / sizeof(Scalar<V>);
@@ -32,7 +32,7 @@ template <class L, class V, class T>
     for (int i = 0; i < L::Q; ++i) {
         f[i] = load<kLanes, Scalar<V>>(p[i] + x);
         // Memory works on the next row while this one is computed and its solids are served. 1: to be written, 2: into the second level.
-        if constexpr (kLanes > 1) __builtin_prefetch(p[i] + x + ahead, 1, 2);
+        if (kLanes > 1 && i < asked) __builtin_prefetch(p[i] + x + ahead, 1, 2);
     }
 }
 
@@ -81,7 +81,7 @@ template <class L, bool inertia, Kind kind, int W, class T>
                                                WatchPack<W, Number<kind, T>>& watch)
 {
     Pack<W, Number<kind, T>> f[L::Q];
-    load_all<L>(p, x, ahead, f);
+    load_all<L, kind == Kind::fluid ? L::Q : L::Q - RowAhead::kAll>(p, x, ahead, f);
     if constexpr (kind == Kind::fluid) watch.see(collide_fluid<L, inertia>(f, parameters));
     else {
         using C = RowSaturation;
