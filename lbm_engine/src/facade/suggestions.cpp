@@ -8,8 +8,6 @@ using namespace planning;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// A request for cells of this size; the box becomes as many as it takes.
 PlanRequest with_dx(PlanRequest r, const Vec3& lengths, double dx)
 {

@@ -98,11 +98,10 @@ SolidMap::SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& p
                    const std::array<bool, 6>& mirrors, const Weighting& weighting, bool thicken)
     : n_(cells)
     , periodic_(periodic)
-    , mirrors_(mirrors)
     , weighting_(weighting)
     , thicken_(thicken)
     , units_(cells[1], cells[2])
-    , neighbours_(cells, periodic)
+    , pores_(cells, periodic, mirrors)
     , row_begin_(static_cast<std::size_t>(cells[1]) * cells[2] + 1, 0)
 {
 }
@@ -119,64 +118,6 @@ std::vector<std::vector<int>> SolidMap::earlier_of_body(const std::vector<Lattic
         body.push_back(static_cast<int>(s));
     }
     return earlier;
-}
-
-/// Gets ready for find_opposite.
-void SolidMap::search_near(const std::vector<LatticeSolid>& solids)
-{
-    centres_.clear();
-    largest_ = 0;
-    for (const LatticeSolid& solid : solids) {
-        centres_.push_back(solid.geometry.centre);
-        if (solid.geometry.shape == Shape::sphere) largest_ = std::max(largest_, solid.geometry.radius);
-    }
-    neighbours_.sort(centres_, narrow_reach(largest_, largest_));
-}
-
-/// Whether a point is nearer than its periodic images: of a rigid body, then, the member and not its image.
-bool SolidMap::is_nearest(const Vec3& image, const Vec3& to) const
-{
-    for (int d = 0; d < 3; ++d)
-        if (periodic_[d] && 2 * std::abs(image[d] - to[d]) > n_[d]) return false;
-    return true;
-}
-
-/// Spheres of other bodies, images and mirror images that leave a narrow pore to a sphere.
-void SolidMap::find_opposite(std::size_t solid, const std::vector<LatticeSolid>& solids,
-                             std::vector<Opposite>& opposite) const
-{
-    constexpr std::size_t kMostly = 24;  // spheres of one size have fewer: no memory is asked for while they move
-    opposite.clear();
-    opposite.reserve(kMostly);
-    const LatticeSolid& one = solids[solid];
-    if (!thicken_ || one.geometry.shape != Shape::sphere) return;
-    const Vec3& centre = one.geometry.centre;
-    const double R = one.geometry.radius;
-    const double farthest = narrow_reach(R, largest_);
-    const auto add = [&](const Vec3& image, double radius) {
-        const Vec3 apart = image - centre;
-        const double apart2 = dot(apart, apart);
-        if (apart2 >= farthest * farthest || apart2 == 0) return;
-        const double reach = narrow_reach(R, radius);
-        if (apart2 < reach * reach) opposite.emplace_back(apart, radius);
-    };
-    const auto add_mirrored = [&](const Vec3& image, double radius) {
-        for (int face = 0; face < 6; ++face) {
-            if (!mirrors_[face]) continue;
-            Vec3 mirrored = image;
-            mirrored[face / 2] = (face % 2 == 0 ? 0 : 2 * n_[face / 2]) - image[face / 2];
-            add(mirrored, radius);
-        }
-    };
-    add_mirrored(centre, R);
-    neighbours_.for_near(static_cast<std::int32_t>(solid), [&](std::int32_t other, const Vec3& shift) {
-        const LatticeSolid& two = solids[other];
-        if (two.geometry.shape != Shape::sphere) return;
-        const Vec3 image = two.geometry.centre + shift;
-        if (one.body >= 0 && one.body == two.body && is_nearest(image, centre)) return;
-        add(image, two.geometry.radius);
-        add_mirrored(image, two.geometry.radius);
-    });
 }
 
 void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector<int>& previous)
@@ -214,7 +155,7 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
 
     bool search = thicken_ && !same_set;
     for (std::ptrdiff_t s = 0; s < count && thicken_ && !search; ++s) search = moved_[s];
-    if (search) search_near(solids);
+    if (search) pores_.search(solids);
     bool spans_changed = !same_set;
     fractions_.resize(std::max<std::size_t>(fractions_.size(), omp_get_max_threads()), {n_, periodic_});
     opposite_.resize(fractions_.size());
@@ -235,7 +176,7 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
                     changed = changed || moved[o];
                 }
             if (search) {
-                find_opposite(s, solids, opposite);
+                pores_.find(s, solids, opposite);
                 changed = changed || opposite != solid.opposite;
                 std::swap(solid.opposite, opposite);
             }

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "fields/neighbours.hpp"
+#include "fields/lattice_solid.hpp"
+#include "fields/narrow_pores.hpp"
 #include "fields/row_saturation.hpp"
 #include "fields/solid_row.hpp"
 #include "lattice/vec3.hpp"
@@ -12,14 +13,6 @@
 #include <vector>
 
 namespace lbm {
-
-/// A solid in lattice units.
-struct LatticeSolid {
-    SolidGeometry geometry;
-    std::int64_t body = -1;
-    Vec3 velocity{}, angular_velocity{};
-    bool fixed = false;  ///< at rest, and not free to move
-};
 
 /// Sums of one solid over its cells in one step, in lattice units; moments about its centre.
 struct SolidSums {
@@ -134,10 +127,6 @@ private:
     void mark_walls();
     bool is_wall_cell(const LatticeSolid& own, const std::vector<const LatticeSolid*>& boxes,
                       const std::array<int, 3>& cell) const;
-    void search_near(const std::vector<LatticeSolid>& solids);
-    bool is_nearest(const Vec3& image, const Vec3& to) const;
-    void find_opposite(std::size_t solid, const std::vector<LatticeSolid>& solids,
-                       std::vector<Opposite>& opposite) const;
     void map(MappedSolid& solid, SolidFraction& fraction, const std::vector<SolidGeometry>& others) const;
     void measure(MappedSolid& solid, const SolidFraction& fraction, bool lone_sphere) const;
     void list_rows();
@@ -154,15 +143,12 @@ private:
 
     std::array<int, 3> n_;
     std::array<bool, 3> periodic_;
-    std::array<bool, 6> mirrors_;
     Weighting weighting_;
     bool thicken_;
     RowUnits units_;
     std::vector<MappedSolid> solids_;
-    Neighbours neighbours_;
+    NarrowPores pores_;
     std::vector<std::uint8_t> moved_;              // while updating
-    std::vector<Vec3> centres_;                    // while searching
-    double largest_ = 0;                           // radius, the same
     std::vector<SolidFraction> fractions_;         // for each thread
     std::vector<std::vector<Opposite>> opposite_;  // the same
     std::vector<RowSolid> row_solids_;
