@@ -2,7 +2,7 @@
 
 #include "fields/lattice_solid.hpp"
 #include "fields/neighbours.hpp"
-#include "physics/solid_fraction.hpp"
+#include "physics/narrow_pore.hpp"
 
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace lbm {
 
 /**
- * Which spheres stand opposite each other across narrow pores (SolidFraction::thicken): those of other bodies, their images behind periodic faces, and mirror images, its own
+ * Which spheres stand opposite each other across narrow pores (CutCells): those of other bodies, their images behind periodic faces, and mirror images, its own
  * images among them. Members of one rigid body have no pores between them.
  */
 class NarrowPores {

@@ -159,6 +159,7 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
     bool spans_changed = !same_set;
     fractions_.resize(std::max<std::size_t>(fractions_.size(), omp_get_max_threads()), {n_, periodic_});
     opposite_.resize(fractions_.size());
+    cut_cells_.resize(fractions_.size());
 #pragma omp parallel reduction(|| : spans_changed, boxes_changed) if (count > 8)
     {
         SolidFraction& fraction = fractions_[omp_get_thread_num()];
@@ -181,7 +182,7 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
                 std::swap(solid.opposite, opposite);
             }
             if (!changed) continue;
-            map(solid, fraction, others);
+            map(solid, fraction, cut_cells_[omp_get_thread_num()], others);
             spans_changed = true;
             boxes_changed = boxes_changed || solid.solid.geometry.shape == Shape::box;
         }
@@ -251,13 +252,13 @@ double SolidMap::k(const SolidGeometry& geometry) const
     return weighting_.k(geometry.shape == Shape::sphere ? geometry.radius : std::numeric_limits<double>::infinity());
 }
 
-void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vector<SolidGeometry>& others) const
+void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, CutCells& cut,
+                   const std::vector<SolidGeometry>& others) const
 {
     const SolidGeometry& geometry = solid.solid.geometry;
     fraction.evaluate(geometry, others);
     solid.k = k(geometry);
     measure(solid, fraction, geometry.shape == Shape::sphere && others.empty());
-    solid.filled = solid.opposite.empty() ? 0 : fraction.thicken(geometry, solid.opposite);
     const auto& first = fraction.first();
     const auto& count = fraction.count();
     solid.y0 = first[1];
@@ -297,8 +298,26 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, const std::vecto
             std::copy_n(row, span->before, stored);
             std::copy(row + span->before + span->full, row + count + span->full, stored + span->before);
         }
+    solid.filled = 0;
+    if (!solid.opposite.empty()) thicken(solid, cut);
     solid.units_y = units_along(solid.y0, solid.ny, n_[1], units_.rows);
     solid.units_z = units_along(solid.z0, solid.nz, n_[2], units_.planes);
+}
+
+/// What is stored of a sphere are the cells that it cuts.
+void SolidMap::thicken(MappedSolid& solid, CutCells& cut) const
+{
+    const SolidGeometry& geometry = solid.solid.geometry;
+    cut.clear({static_cast<int>(std::floor(geometry.centre[0] - geometry.radius)), solid.y0, solid.z0});
+    for (int k = 0; k < solid.nz; ++k)
+        for (int j = 0; j < solid.ny; ++j) {
+            const Span* const span = &solid.spans[static_cast<std::size_t>(k) * solid.ny + j];
+            const int x = span->x0 + span->before,
+                      rest = static_cast<int>(span[1].fractions - span->fractions) - span->before;
+            cut.add(span->x0, x, solid.y0 + j, solid.z0 + k);
+            cut.add(x + span->full, x + span->full + rest, solid.y0 + j, solid.z0 + k);
+        }
+    solid.filled = cut.thicken(geometry.centre, geometry.radius, solid.opposite, solid.fractions.data() + kBlock);
 }
 
 /// Volume inside the lattice, and whether surfaces cut no cell of it.

@@ -68,7 +68,7 @@ public:
     /**
      * @param periodic  for each axis
      * @param mirrors   faces behind which a sphere sees its mirror image
-     * @param thicken   whether cells cut by a sphere count as more solid opposite other spheres (SolidFraction::thicken)
+     * @param thicken   whether cells cut by a sphere count as more solid opposite other spheres (CutCells)
      */
     SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic, const std::array<bool, 6>& mirrors,
              const Weighting& weighting, bool thicken);
@@ -127,7 +127,9 @@ private:
     void mark_walls();
     bool is_wall_cell(const LatticeSolid& own, const std::vector<const LatticeSolid*>& boxes,
                       const std::array<int, 3>& cell) const;
-    void map(MappedSolid& solid, SolidFraction& fraction, const std::vector<SolidGeometry>& others) const;
+    void map(MappedSolid& solid, SolidFraction& fraction, CutCells& cut,
+             const std::vector<SolidGeometry>& others) const;
+    void thicken(MappedSolid& solid, CutCells& cut) const;
     void measure(MappedSolid& solid, const SolidFraction& fraction, bool lone_sphere) const;
     void list_rows();
     void tell_rows();
@@ -151,6 +153,7 @@ private:
     std::vector<std::uint8_t> moved_;              // while updating
     std::vector<SolidFraction> fractions_;         // for each thread
     std::vector<std::vector<Opposite>> opposite_;  // the same
+    std::vector<CutCells> cut_cells_;              // the same
     std::vector<RowSolid> row_solids_;
     bool all_fixed_ = false;
     std::vector<std::uint32_t> row_begin_;  // (ny * nz + 1)

@@ -1,7 +1,5 @@
 #include "physics/solid_fraction.hpp"
 
-#include "lattice/each_isa.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -127,99 +125,6 @@ bool is_hidden(const std::vector<SolidGeometry>& solids, const Vec3& p)
     });
 }
 
-/// Cells that are written at a time.
-constexpr int kChunk = 8;
-constexpr int whole_chunks(int count) { return (count + kChunk - 1) / kChunk * kChunk; }
-
-/// Half a diagonal: the centres of cells that a surface cuts are so near it.
-constexpr double kCut = 0.87;
-
-/// Pores that are wider than this, with the larger of two curvatures, are not narrow.
-double widest_pore(double curvature) { return 1 / curvature; }
-
-/// The pore between a sphere and what stands opposite: what does not depend on the cell.
-struct Pore {
-    Vec3 towards;
-    double curvature1, curvature2;
-    double distance;  ///< h = (curvature1 + curvature2) / 2 r^2 - r.towards + distance
-    double widest;
-
-    Pore(const SolidGeometry& sphere, const Opposite& other)
-        : towards(other.towards)
-        , curvature1(1 / sphere.radius)
-        , curvature2(other.curvature)
-        , distance(other.distance - 0.5 * sphere.radius)
-        , widest(widest_pore(std::max(curvature1, curvature2)))
-    {
-    }
-
-    /// Where along z, from the centre of the sphere, cells of the pore between two radii may be: those of a cap.
-    Interval reach_z(double inner, double outer) const
-    {
-        const double length = norm(towards);
-        const double faces = curvature2 * inner * inner;                                            // r.s < 0
-        const double narrow = 0.5 * (curvature1 + curvature2) * inner * inner + distance - widest;  // h < widest
-        const double height = std::max(faces, narrow) / length;
-        if (!(height < outer)) return kNothing;
-        const double n = towards[2] / length;
-        const double across = std::sqrt(std::max(0.0, (1 - n * n) * (outer * outer - height * height)));
-        return {-n * outer >= height ? -outer : n * height - across, n * outer >= height ? outer : n * height + across};
-    }
-};
-
-/// Where a list of cells goes: their places in a block of cells along x, y, z.
-struct CellList {
-    std::int16_t *x, *y, *z;
-    int count;
-
-    /// Adds cells of a row from begin to end; writes whole chunks, of which the last one does not count to its end.
-    void add(int begin, int end, int j, int k)
-    {
-        for (int i = begin; i < end; i += kChunk) {
-            for (int l = 0; l < kChunk; ++l) x[count + l] = static_cast<std::int16_t>(i + l);
-            for (int l = 0; l < kChunk; ++l) y[count + l] = static_cast<std::int16_t>(j);
-            for (int l = 0; l < kChunk; ++l) z[count + l] = static_cast<std::int16_t>(k);
-            count += std::min(kChunk, end - i);
-        }
-    }
-};
-
-/// Coordinates along an axis of listed cells, the first one of all at `first`.
-LBM_EACH_ISA
-void coordinates(const std::int16_t* cell, int count, double first, double* x)
-{
-    for (int i = 0; i < count; ++i) x[i] = first + cell[i];
-}
-
-/// Half widths of a ring in rows at y = first, first + 1 ...: of what is within the outer radius and the inner one, with squares z^2 less.
-LBM_EACH_ISA
-void half_widths(double first, int count, double outer2, double inner2, double* reach, double* hollow)
-{
-    for (int j = 0; j < count; ++j) {
-        const double y2 = (first + j) * (first + j), out = outer2 - y2, in = inner2 - y2;
-        reach[j] = std::sqrt(out > 0 ? out : 0);
-        hollow[j] = std::sqrt(in > 0 ? in : 0);
-    }
-}
-
-/// Raises the thickening of cells by what a pore asks for; x, y, z: their centres as seen from that of the sphere.
-LBM_EACH_ISA
-void narrow(const Pore pore, const double* x, const double* y, const double* z, int count, double* thickening)
-{
-    constexpr double kStrength = 3.7, kWidth2 = 4;  // fitted: docs/physics.md
-    const double tx = pore.towards[0], ty = pore.towards[1], tz = pore.towards[2];
-    const double curvature = 0.5 * (pore.curvature1 + pore.curvature2), curvature2 = pore.curvature2;
-    const double distance = pore.distance, over_widest = 1 / pore.widest, twice_curvature1 = 2 * pore.curvature1;
-    for (int i = 0; i < count; ++i) {
-        const double r2 = x[i] * x[i] + y[i] * y[i] + z[i] * z[i], along = x[i] * tx + y[i] * ty + z[i] * tz;
-        const double width = curvature * r2 - along + distance, h = width > 0 ? width : 0;
-        const double narrow = 1 - h * over_widest, in_reach = narrow > 0 ? narrow : 0;
-        const double facing = twice_curvature1 * (along - curvature2 * r2);  // -2 r.s / (R1 R2)
-        const double t = kStrength / (h * h + kWidth2) * in_reach * (facing < 1 ? facing : 1);
-        thickening[i] = t > thickening[i] ? t : thickening[i];
-    }
-}
-
 }  // namespace
 
 void SolidFraction::evaluate(const SolidGeometry& solid, const std::vector<SolidGeometry>& others)
@@ -238,76 +143,6 @@ void SolidFraction::evaluate(const SolidGeometry& solid, const std::vector<Solid
         break;
     }
     if (!others.empty()) leave_out(solid, others);
-}
-
-double narrow_reach(double radius1, double radius2)
-{
-    const double widest = widest_pore(1 / std::min(radius1, radius2));
-    return radius1 + std::sqrt(radius2 * radius2 + 2 * radius2 * (widest + kCut));
-}
-
-double SolidFraction::thicken(const SolidGeometry& sphere, const std::vector<Opposite>& opposite)
-{
-    make_own();
-    const double inner = std::max(0.0, sphere.radius - kCut), outer = sphere.radius + kCut;
-    gather_ring(sphere.centre, inner, outer);
-    for (const Opposite& other : opposite) {
-        const Pore pore(sphere, other);
-        const Interval reach = pore.reach_z(inner, outer);
-        if (reach.length() == 0) continue;
-        const auto plane = [&](double z) {
-            return cut_.planes[static_cast<int>(std::clamp<double>(sphere.centre[2] + z - first_[2], 0, count_[2]))];
-        };
-        const int begin = plane(reach.begin), end = plane(reach.end + 1);
-        narrow(pore, cut_.centre[0].data() + begin, cut_.centre[1].data() + begin, cut_.centre[2].data() + begin,
-               end - begin, cut_.thickening.data() + begin);
-    }
-    double added = 0;
-    for (int i = 0; i < cut_.planes[count_[2]]; ++i) {
-        double& fraction = own_row(cut_.cell[1][i], cut_.cell[2][i])[cut_.cell[0][i]];
-        const double more = cut_.thickening[i] * fraction * (1 - fraction);
-        fraction += more;
-        added += more;
-    }
-    return added;
-}
-
-/// Lists the cells inside the lattice with centres between two radii, plane by plane.
-void SolidFraction::gather_ring(const Vec3& centre, double inner, double outer)
-{
-    std::array<int, 3> begin{}, end = count_;
-    Vec3 first{};  // centre of the first cell
-    for (int d = 0; d < 3; ++d) {
-        first[d] = first_[d] + 0.5 - centre[d];
-        if (periodic_[d]) continue;
-        begin[d] = std::clamp(-first_[d], 0, count_[d]);
-        end[d] = std::clamp(n_[d] - first_[d], begin[d], count_[d]);
-    }
-    for (auto& cell : cut_.cell) cell.resize(own_.size() + kChunk);
-    cut_.planes.assign(whole_chunks(count_[2] + 1), 0);  // so that a row more asks for no memory
-    cut_.reach.resize(whole_chunks(count_[1]));
-    cut_.hollow.resize(whole_chunks(count_[1]));
-    CellList list{cut_.cell[0].data(), cut_.cell[1].data(), cut_.cell[2].data(), 0};
-    const auto column = [&](double x) { return std::clamp(static_cast<int>(x - first[0] + 1), begin[0], end[0]); };
-    for (int k = 0; k < count_[2]; ++k) {
-        const double z = first[2] + k;
-        half_widths(first[1], count_[1], outer * outer - z * z, inner * inner - z * z, cut_.reach.data(),
-                    cut_.hollow.data());
-        for (int j = begin[1]; j < end[1] && begin[2] <= k && k < end[2]; ++j) {
-            const double reach = cut_.reach[j], hollow = cut_.hollow[j];
-            if (reach == 0) continue;
-            const int middle = column(-hollow);
-            list.add(column(-reach), middle, j, k);
-            list.add(std::max(middle, column(hollow)), column(reach), j, k);
-        }
-        cut_.planes[k + 1] = list.count;
-    }
-    for (int d = 0; d < 3; ++d) {
-        cut_.centre[d].resize(cut_.cell[d].size());
-        coordinates(cut_.cell[d].data(), list.count, first[d], cut_.centre[d].data());
-    }
-    cut_.thickening.reserve(cut_.cell[0].size());
-    cut_.thickening.assign(list.count, 0.0);
 }
 
 void SolidFraction::make_own()

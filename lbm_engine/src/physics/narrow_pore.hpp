@@ -1,0 +1,69 @@
+#pragma once
+
+#include "lattice/vec3.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace lbm {
+
+/**
+ * A sphere opposite another one across a pore, as seen from the centre of that one. The distance of a point r from it is taken as (s^2 - R2^2) / (2 R2), s being the
+ * point as seen from its own centre, or
+ *
+ *     r^2 / (2 R2) - r.towards + distance
+ */
+struct Opposite {
+    Vec3 towards{};        ///< its centre over its radius
+    double curvature = 0;  ///< 1 / R2
+    double distance = 0;   ///< of the centre from which it is seen
+    bool operator==(const Opposite&) const = default;
+
+    Opposite(const Vec3& centre, double radius)
+        : towards((1 / radius) * centre)
+        , curvature(1 / radius)
+        , distance((dot(centre, centre) - radius * radius) / (2 * radius))
+    {
+    }
+};
+
+/// Distance between the centres of two spheres beyond which no pore between them is narrow.
+[[nodiscard]] double narrow_reach(double radius1, double radius2);
+
+/**
+ * The cells that a sphere cuts, which count as more solid where other spheres stand opposite across a narrow pore: eps (1 + t (1 - eps)) instead of eps.
+ *
+ * A pressure gradient drives flow through cut cells, too much by a volume that does not depend on the width of the pore; against the flow of a narrow one this
+ * counts (docs/physics.md, "Narrow pores"). With r and s the places of a cell as seen from the two centres,
+ *
+ *     t = 3.7 / (h^2 + 4) (1 - h / w) min(1, -2 r.s / (R1 R2)),   h = (r^2 - R1^2) / (2 R1) + (s^2 - R2^2) / (2 R2),   w = min(R1, R2)
+ *
+ * h being the width of the pore; the last factor fades it out where surfaces stand across to each other. The largest t counts.
+ */
+class CutCells {
+public:
+    /// Forgets all cells. Places of cells are counted from this corner.
+    void clear(const std::array<int, 3>& corner);
+
+    /// Adds the cells of a row from begin to end; to be called plane by plane.
+    void add(int begin, int end, int y, int z);
+
+    /**
+     * Thickens the cells, in the order in which they were added.
+     * @return what was added [cells]
+     */
+    double thicken(const Vec3& centre, double radius, const std::vector<Opposite>& opposite, double* fractions);
+
+private:
+    void grow();
+
+    std::array<int, 3> corner_{};
+    std::array<std::vector<std::int16_t>, 3> cell_;  // from the corner
+    int count_ = 0;
+    std::vector<int> planes_;                   // first cell of each plane
+    std::array<std::vector<double>, 3> place_;  // from the centre of the sphere
+    std::vector<double> thickening_;
+};
+
+}  // namespace lbm
