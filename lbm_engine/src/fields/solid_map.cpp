@@ -450,7 +450,8 @@ std::size_t SolidMap::memory_bytes() const
     const auto bytes_of = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
     std::size_t bytes = bytes_of(row_begin_) + bytes_of(row_next_) + bytes_of(pieces_) + bytes_of(solids_) +
                         bytes_of(row_solids_) + bytes_of(sums_begin_) + bytes_of(sums_);
-    for (const MappedSolid& s : solids_) bytes += bytes_of(s.spans) + bytes_of(s.fractions) + bytes_of(s.bounce);
+    for (const MappedSolid& s : solids_)
+        bytes += bytes_of(s.spans) + bytes_of(s.fractions) + bytes_of(s.bounce) + bytes_of(s.opposite);
     return bytes;
 }
 
