@@ -62,7 +62,7 @@ void coordinates(const std::int16_t* cell, int count, double first, double* x)
 
 /// Raises the thickening of cells by what a pore asks for; x, y, z: their centres as seen from that of the sphere.
 LBM_EACH_ISA
-void narrow(const Pore pore, const double* x, const double* y, const double* z, int count, double* thickening)
+void narrow(const Pore& pore, const double* x, const double* y, const double* z, int count, double* thickening)
 {
     constexpr double kStrength = 3.7, kWidth2 = 4;  // fitted: docs/physics.md
     const double tx = pore.towards[0], ty = pore.towards[1], tz = pore.towards[2];
