@@ -16,7 +16,7 @@ Made by `scripts/validate` from the results in [{folder}/]({folder}/), which hol
 - **worst**: the largest error among the offsets. The target applies to it, not to the mean.
 - **scatter**: half the range over the offsets.
 - **tau**: the cheapest one for steady Stokes flow. The result does not depend on it; the case `tau` proves that.
-- **cost** of a case: at its end, with where and when it was run.
+- **cost** of a case: at its end, with where and when it was run. A commit that the history does not have was rebased before it landed, with changes beside it.
 - A verdict is given only where a target was set before the runs. No target was changed to fit a number.
 """
 

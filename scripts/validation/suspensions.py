@@ -220,7 +220,7 @@ def text(results):
 Arrangements in equilibrium settle as hard spheres in equilibrium should, at rest and on their way: within 20 to 50 radii of a lone sphere's fall the velocity changes by no more than between two arrangements. Films change it little, and at rest eight and twelve
 cells per diameter agree. The velocities below Richardson & Zaki are no error of the flow. Their correlation is of spheres without Brownian
 motion, whose arrangement a long fall has made; a fall of hundreds of radii in a larger box was not tried. Hard spheres in equilibrium have an exponent of {exponent((p, sedimentation_at_rest(p)) for p in (0.1, 0.2, 0.3, 0.4)):.2f} at these four fractions. The exponent found
-is uncertain by 0.07 from the arrangements. A cube of 100 spheres, 12 % slower than an endless suspension at phi = 0.1 and 4 % at 0.4, has an exponent 0.2 smaller: that it then is
+is uncertain by 0.07 from the arrangements. A cube of 100 spheres, 12 % slower than an endless suspension at phi = 0.1 and 4 % at 0.4, has an exponent 0.2 smaller: that it then comes near
 Richardson & Zaki's is chance, and the agreement reported here before was of this kind.
 
 **Viscosity.**
