@@ -1,5 +1,6 @@
 #include "fields/solid_map.hpp"
 
+#include "fields/wall_cells.hpp"
 #include "lattice/wrap.hpp"
 
 #include <omp.h>
@@ -192,15 +193,13 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
     tell_rows();
 }
 
-/**
- * Boxes whose surface runs along the lattice turn populations round in their outermost cells: the wall then stands exactly half-way to the fluid.
- * Which ones these are depends on the other boxes too, so all are marked anew when one of them changed.
- */
+/// Boxes whose surfaces run along the lattice turn populations round in their outermost cells. All are marked anew when one of them changed.
 void SolidMap::mark_walls()
 {
     std::vector<const LatticeSolid*> boxes;
     for (const MappedSolid& solid : solids_)
         if (solid.solid.geometry.shape == Shape::box) boxes.push_back(&solid.solid);
+    const WallCells walls(n_, periodic_, std::move(boxes));
     for (MappedSolid& solid : solids_) {
         solid.bounce.clear();
         if (solid.solid.geometry.shape != Shape::box || !solid.whole_cells) continue;
@@ -211,39 +210,9 @@ void SolidMap::mark_walls()
             const int y = solid.y0 + static_cast<int>(i) % solid.ny, z = solid.z0 + static_cast<int>(i) / solid.ny;
             for (int x = 0; x < n; ++x)
                 solid.bounce[span.fractions + x] =
-                    solid.fractions[span.fractions + x] == 1 && is_wall_cell(solid.solid, boxes, {span.x0 + x, y, z});
+                    solid.fractions[span.fractions + x] == 1 && walls.contain(solid.solid, {span.x0 + x, y, z});
         }
     }
-}
-
-/**
- * Whether a cell of a box may turn populations round: it lies under a surface, and not beside a face of the lattice or another box that moves
- * otherwise. Between two such surfaces in sliding contact populations would grow without bound.
- */
-bool SolidMap::is_wall_cell(const LatticeSolid& own, const std::vector<const LatticeSolid*>& boxes,
-                            const std::array<int, 3>& cell) const
-{
-    const auto reach = [](const SolidGeometry& g, int d) { return half_reach(g.axes, g.half_extents, d); };
-    // Distance from a cell's centre to the nearest image of a box's centre, along an axis.
-    const auto offset = [&](const SolidGeometry& g, int d) {
-        double r = cell[d] + 0.5 - g.centre[d];
-        if (periodic_[d]) r -= n_[d] * std::round(r / n_[d]);
-        return std::abs(r);
-    };
-    bool under_surface = false;
-    for (int d = 0; d < 3; ++d) {
-        if (!periodic_[d] && (cell[d] == 0 || cell[d] == n_[d] - 1)) return false;
-        const double half = reach(own.geometry, d);
-        const bool fills = periodic_[d] && 2 * half >= n_[d];
-        under_surface = under_surface || (!fills && offset(own.geometry, d) > half - 1);
-    }
-    if (!under_surface) return false;
-    return std::none_of(boxes.begin(), boxes.end(), [&](const LatticeSolid* other) {
-        if (other->velocity == own.velocity && other->angular_velocity == own.angular_velocity) return false;
-        bool beside = true;
-        for (int d = 0; d < 3; ++d) beside = beside && offset(other->geometry, d) < reach(other->geometry, d) + 1.5;
-        return beside;
-    });
 }
 
 /// The curved part of the strength was fitted on spheres. Elsewhere it is left out: for a bore that is the most accurate, too (docs/physics.md).

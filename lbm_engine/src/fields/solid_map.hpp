@@ -125,8 +125,6 @@ private:
     std::vector<std::vector<int>> earlier_of_body(const std::vector<LatticeSolid>& solids) const;
     double k(const SolidGeometry& geometry) const;
     void mark_walls();
-    bool is_wall_cell(const LatticeSolid& own, const std::vector<const LatticeSolid*>& boxes,
-                      const std::array<int, 3>& cell) const;
     void map(MappedSolid& solid, SolidFraction& fraction, CutCells& cut,
              const std::vector<SolidGeometry>& others) const;
     void thicken(MappedSolid& solid, CutCells& cut) const;
