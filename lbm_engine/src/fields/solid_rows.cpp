@@ -17,8 +17,9 @@ void SolidMap::prefetch(std::size_t row) const noexcept
         const Piece& piece = pieces_[p];
         const double* const fractions = row_solids_[piece.solid].fractions + piece.fractions;
         const int stored = piece.n - piece.full;
-        for (int i = 0; i < stored; i += kBlock) __builtin_prefetch(fractions + i);
-        __builtin_prefetch(fractions + stored);
+        // Blocks are read whole: up to kBlock - 1 beyond the end.
+        for (int i = 0; i < stored + kBlock - 1; i += kBlock) __builtin_prefetch(fractions + i);
+        __builtin_prefetch(fractions + stored + kBlock - 2);
     }
 }
 
