@@ -25,18 +25,19 @@ constexpr double kSlice = 0.05;  // [s]
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-std::vector<std::string> split(const std::string& list)
+std::vector<std::string> split(const std::string& option, const std::string& list)
 {
     std::vector<std::string> parts;
     std::stringstream stream(list);
     for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+    if (parts.empty()) throw ConfigError(option + ": needs a value");
     return parts;
 }
 
 std::vector<double> numbers(const std::string& option, const std::string& list, double low, double high)
 {
     std::vector<double> values;
-    for (const std::string& part : split(list)) {
+    for (const std::string& part : split(option, list)) {
         std::size_t used = 0;
         double value = std::nan("");
         try {
@@ -53,13 +54,22 @@ std::vector<double> numbers(const std::string& option, const std::string& list, 
     return values;
 }
 
+std::vector<int> whole_numbers(const std::string& option, const std::string& list, int low, int high)
+{
+    const std::vector<double> values = numbers(option, list, low, high);
+    for (const double value : values)
+        if (value != std::floor(value)) throw ConfigError(option + " " + list + ": must be whole numbers");
+    return {values.begin(), values.end()};
+}
+
 std::vector<std::string> words(const std::string& option, const std::string& list,
                                const std::vector<std::string>& allowed)
 {
-    for (const std::string& part : split(list))
+    const std::vector<std::string> parts = split(option, list);
+    for (const std::string& part : parts)
         if (std::find(allowed.begin(), allowed.end(), part) == allowed.end())
             throw ConfigError(std::string(option).append(" ").append(part).append(": unknown"));
-    return split(list);
+    return parts;
 }
 
 /// Spheres of about this diameter on a face-centred cubic lattice that fits the box, moved at random within their gaps.
@@ -273,15 +283,14 @@ std::string line_of(const nlohmann::json& result)
 BenchOptions read_bench_options(const std::vector<std::string>& arguments)
 {
     BenchOptions o;
-    const auto whole = [](const std::vector<double>& values) { return std::vector<int>(values.begin(), values.end()); };
     for (std::size_t i = 0; i < arguments.size(); i += 2) {
         const std::string& option = arguments[i];
         if (i + 1 == arguments.size()) throw ConfigError(option + ": needs a value");
         const std::string& list = arguments[i + 1];
         if (option == "--cases") o.cases = words(option, list, {"fluid", "bed", "suspension", "dilute"});
         else if (option == "--storage") o.storages = words(option, list, {"double", "single"});
-        else if (option == "--cells") o.cells = whole(numbers(option, list, 8, 2000));
-        else if (option == "--threads") o.threads = whole(numbers(option, list, 1, 1024));
+        else if (option == "--cells") o.cells = whole_numbers(option, list, 8, 2000);
+        else if (option == "--threads") o.threads = whole_numbers(option, list, 1, omp_get_num_procs());
         else if (option == "--diameters") o.diameters = numbers(option, list, 4, 500);
         else if (option == "--seconds") o.seconds = numbers(option, list, 0.01, 3600).front();
         else throw ConfigError(option + ": unknown option");

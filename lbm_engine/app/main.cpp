@@ -1,14 +1,17 @@
 #include "bench.hpp"
+#include "parse_json.hpp"
 #include "run_case.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <omp.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <new>
 
 namespace {
 
@@ -30,18 +33,37 @@ exit status: 0, 2 for bad input, 3 for a run that diverged or did not become ste
 nlohmann::json parse(const std::string& path)
 {
     try {
-        if (path == "-") return nlohmann::json::parse(std::cin);
+        if (path == "-") return lbm::parse_json(std::cin);
         std::ifstream file(path);
         if (!file || std::filesystem::is_directory(path)) throw lbm::ConfigError(path + ": cannot be read");
-        return nlohmann::json::parse(file);
+        return lbm::parse_json(file);
     } catch (const nlohmann::json::exception& error) {
         throw lbm::ConfigError(path + ": not valid JSON: " + error.what());
+    } catch (const std::ios_base::failure& error) {
+        throw lbm::ConfigError(path + ": cannot be read: " + error.what());
     }
+}
+
+/// More threads than processors only get into each other's way; results do not depend on them.
+void limit_threads(int& threads)
+{
+    const int processors = omp_get_num_procs();
+    if (threads <= processors) return;
+    std::fprintf(stderr, "lbm: threads = %d: there are %d processors, so %d are used\n", threads, processors,
+                 processors);
+    threads = processors;
+}
+
+void print(const nlohmann::json& result)
+{
+    std::cout << result.dump(2) << std::endl;
+    if (!std::cout) throw lbm::RunError("the result cannot be written to standard output");
 }
 
 int run(const std::string& path)
 {
-    const lbm::Case input = lbm::read_case(parse(path));
+    lbm::Case input = lbm::read_case(parse(path));
+    limit_threads(input.fluid.threads);
     double last = 0;
     bool shown = false;
     const bool terminal = isatty(STDERR_FILENO);
@@ -54,7 +76,8 @@ int run(const std::string& path)
                      terminal ? "   " : "\n");
     });
     if (shown && terminal) std::fputc('\n', stderr);
-    std::cout << result.json.dump(2) << '\n';
+    print(result.json);
+    if (!result.not_written.empty()) throw lbm::RunError(result.not_written);
     if (input.steady > 0 && !result.converged) {
         std::fprintf(stderr, "lbm: not steady to %g after %lld steps: raise stop.max_steps\n", input.steady,
                      static_cast<long long>(input.max_steps));
@@ -70,8 +93,7 @@ int bench(const std::vector<std::string>& arguments)
         return 0;
     }
     const auto options = lbm::read_bench_options(arguments);
-    std::cout << lbm::run_bench(options, [](const std::string& line) { std::cerr << line << std::endl; }).dump(2)
-              << '\n';
+    print(lbm::run_bench(options, [](const std::string& line) { std::cerr << line << std::endl; }));
     return 0;
 }
 
@@ -94,6 +116,9 @@ int main(int argc, char** argv)
     } catch (const lbm::ConfigError& error) {
         std::fprintf(stderr, "lbm: %s\n", error.what());
         return kBadInput;
+    } catch (const std::bad_alloc&) {
+        std::fputs("lbm: there is no memory left: use a larger dx, or single storage\n", stderr);
+        return kFailedRun;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "lbm: %s\n", error.what());
         return kFailedRun;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -11,6 +12,8 @@ namespace lbm {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr double kLargestCount = 1e15;  // doubles still know it from its neighbours
 
 /// An object of the case, with its place in it for messages. Every key must be asked for: those left over are unknown.
 class Section {
@@ -44,8 +47,8 @@ public:
     {
         if (!has(key)) return otherwise;
         const double value = number(key);
-        if (value != std::floor(value) || value < 0 || value > 9e15)
-            throw ConfigError(name(key) + ": must be a whole number >= 0");
+        if (!(value == std::floor(value) && value >= 0 && value <= kLargestCount))
+            throw ConfigError(name(key) + ": must be a whole number from 0 to 1e15");
         return static_cast<std::int64_t>(value);
     }
     bool flag(const char* key, bool otherwise)
@@ -264,7 +267,7 @@ Case read_case(const Json& json)
     fluid.gravity = root.vector("gravity", {});
     fluid.initial_velocity = root.vector("initial_velocity", {});
     fluid.max_mach = root.number("max_mach", fluid.max_mach);
-    fluid.threads = static_cast<int>(std::min<std::int64_t>(root.count("threads", 0), 4096));
+    fluid.threads = static_cast<int>(std::min<std::int64_t>(root.count("threads", 0), std::numeric_limits<int>::max()));
     if (root.has("boundaries")) read_boundaries(root.section("boundaries"), fluid);
 
     if (root.has("solids")) {

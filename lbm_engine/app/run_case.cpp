@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <system_error>
 
 namespace lbm {
 namespace {
@@ -117,12 +119,22 @@ std::string kept_state(const Fluid& fluid, const std::string& vtk)
     }
 }
 
+/// Before a long run; leaves nothing behind.
+void require_writable(const std::string& vtk)
+{
+    if (vtk.empty()) return;
+    std::error_code unknown;
+    const bool is_there = std::filesystem::exists(vtk, unknown);
+    if (!std::ofstream(vtk, std::ios::app))
+        throw ConfigError("output.vtk: " + vtk + " cannot be written; check its folder");
+    if (!is_there) std::filesystem::remove(vtk, unknown);
+}
+
 }  // namespace
 
 CaseResult run_case(const Case& input, const std::function<void(const Progress&)>& report)
 {
-    if (!input.vtk.empty() && !std::ofstream(input.vtk, std::ios::app))
-        throw ConfigError("output.vtk: " + input.vtk + " cannot be written; check its folder");
+    require_writable(input.vtk);
     Fluid fluid(input.fluid);
     Motion motion(input, fluid.dt());
     fluid.place_solids(motion.solids());
@@ -159,7 +171,12 @@ CaseResult run_case(const Case& input, const std::function<void(const Progress&)
         if (fluid.steps() % 16 == 0) report({fluid.steps(), input.max_steps, seconds(), latest_change});
     }
     const double elapsed = seconds();
-    if (!input.vtk.empty()) fluid.save_vtk(input.vtk);
+    std::string not_written;
+    try {
+        if (!input.vtk.empty()) fluid.save_vtk(input.vtk);
+    } catch (const RunError& error) {
+        not_written = error.what();
+    }
 
     nlohmann::json json;
     json["steps"] = fluid.steps();
@@ -190,7 +207,7 @@ CaseResult run_case(const Case& input, const std::function<void(const Progress&)
     const double cells = double(input.fluid.cells[0]) * input.fluid.cells[1] * input.fluid.cells[2];
     json["mlups"] = elapsed > 0 ? cells * fluid.steps() / elapsed / 1e6 : 0.0;
     json["seconds"] = elapsed;
-    return {json, converged};
+    return {json, converged, not_written};
 }
 
 }  // namespace lbm

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
+#include <string>
 
 namespace lbm {
 
@@ -18,6 +19,7 @@ struct Progress {
 struct CaseResult {
     nlohmann::json json;
     bool converged;
+    std::string not_written;  ///< why there is no file for ParaView; empty: there is, or none was asked for
 };
 
 /**

@@ -5,6 +5,7 @@ import csv
 import json
 import math
 import os
+import stat
 import subprocess
 import sys
 import tempfile
@@ -220,6 +221,30 @@ class Results(unittest.TestCase):
             self.assertEqual(int.from_bytes(data[:8], "little"), 8**3 * 3 * 4)
             self.assertEqual(os.listdir(folder), ["flow.vti"])
 
+    def test_links_and_pipes_stay_what_they_are(self):
+        with tempfile.TemporaryDirectory() as folder:
+            link, target, pipe = (os.path.join(folder, name) for name in ("link.vti", "target.vti", "pipe.vti"))
+            with open(target, "w", encoding="utf-8"):
+                os.symlink(target, link)
+            run(array(output={"vtk": link}, stop={"max_steps": 1}))
+            self.assertTrue(os.path.islink(link))
+            self.assertGreater(os.path.getsize(target), 1000)
+            os.mkfifo(pipe)
+            reader = subprocess.Popen(["cat", pipe], stdout=subprocess.DEVNULL)
+            keeper = os.open(pipe, os.O_RDWR)  # so that the reader does not leave after the first writer
+            run(array(output={"vtk": pipe}, stop={"max_steps": 1}))
+            self.assertTrue(stat.S_ISFIFO(os.stat(pipe).st_mode))
+            os.close(keeper)
+            reader.wait(10)
+
+    def test_a_far_box_is_written_where_it_is(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "flow.vti")
+            far = {"cells": [8] * 3, "dx": DX, "lower": [5000000.125, 0, 0]}
+            run(array(domain=far, solids=[], output={"vtk": path}, stop={"max_steps": 1}))
+            with open(path, "rb") as file:
+                self.assertIn(b'Origin="5000000.125 0 0"', file.read())
+
 
 class Messages(unittest.TestCase):
     def refused(self, text, case):
@@ -251,6 +276,28 @@ class Messages(unittest.TestCase):
         self.refused("boundaries.x.min.velocity: unknown key", array(boundaries={"x": {"min": {"type": "freeSlip", "velocity": [0, 0, 0]}, "max": {}}}))
         self.refused('boundaries.x.min.type = "wet"', array(boundaries={"x": {"min": {"type": "wet"}, "max": {}}}))
 
+    def test_a_key_that_stands_twice_is_named(self):
+        text = json.dumps(array())
+        self.refused("tau: stands twice", text.replace('"tau":', '"tau": 2.0, "tau":'))
+        self.refused("domain.dx: stands twice", text.replace('"dx":', '"dx": 1.0, "dx":'))
+        two = json.dumps(array(solids=array()["solids"] * 2))
+        before, after = two.rsplit('"radius":', 1)
+        self.refused("solids[1].radius: stands twice", before + '"radius": 1.0, "radius":' + after)
+
+    def test_more_threads_than_processors_are_not_used(self):
+        status, many, message = run(array(threads=1000000, stop={"max_steps": 20}))
+        self.assertEqual(status, 0, message)
+        self.assertRegex(message, r"threads = 1000000: there are (\d+) processors, so \1 are used")
+        _, one, _ = run(array(threads=1, stop={"max_steps": 20}))
+        self.assertEqual(many["solids"], one["solids"])
+
+    def test_a_benchmark_without_sense_is_refused(self):
+        for option, value, text in (("--seconds", "", "needs a value"), ("--cells", "8.5", "whole"), ("--threads", "1000000", "from 1 to")):
+            done = subprocess.run([PROGRAM, "bench", option, value], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(option, done.stderr)
+            self.assertIn(text, done.stderr)
+
     def test_values_are_checked(self):
         self.refused("dx = -1", array(domain={"cells": [8, 8, 8], "dx": -1}))
         self.refused("must lie between", array(tau=0.5))
@@ -279,6 +326,21 @@ class Messages(unittest.TestCase):
         self.assertFalse(result["converged"])
         self.assertIn("raise stop.max_steps", message)
         self.refused("output.vtk: /nowhere/at/all.vti cannot be written", array(output={"vtk": "/nowhere/at/all.vti"}))
+        with tempfile.TemporaryDirectory() as folder:
+            self.refused("tau", array(tau=0.1, output={"vtk": os.path.join(folder, "flow.vti")}))
+            self.assertEqual(os.listdir(folder), [])
+        # The disk is full when the run ends: the numbers are there all the same.
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "flow.vti")
+            os.symlink("/dev/full", path)
+            status, result, message = run(array(output={"vtk": path}, stop={"max_steps": 5}))
+            self.assertEqual(status, 3)
+            self.assertEqual(result["steps"], 5)
+            self.assertIn(f"cannot write {path}", message)
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([PROGRAM, "run", "-"], input=json.dumps(array(stop={"max_steps": 5})), stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("cannot be written to standard output", done.stderr)
         status, _, message = run(array(acceleration=[1e3, 0, 0]))
         self.assertEqual(status, 3)
         self.assertIn("above the limit", message)
