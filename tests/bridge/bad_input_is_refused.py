@@ -2,6 +2,7 @@ import math
 import tempfile
 import warnings
 
+import numpy as np
 from claims import *
 
 NAN = math.nan
@@ -91,6 +92,20 @@ def other_kinds_and_names_are_refused():
     check_raises(AttributeError, "No such attribute: visc", lambda: box((12, 12, 12), visc=1))
     fluid = box((12, 12, 12))
     check_raises(ValueError, "LbmEngine.dx = -1", lambda: setattr(fluid, "dx", -1))
+    for value in (None, 2, "yes", []):
+        check_raises(TypeError, "LbmEngine.inertia = %s: must be True or False" % value, lambda: setattr(fluid, "inertia", value))
+    check_raises(ValueError, "LbmEngine.mask = 1099511627776: must be within", lambda: setattr(fluid, "mask", 2**40))
+
+
+def numpy_values_are_taken():
+    from yadelbm import LbmEngine
+
+    fluid = LbmEngine(
+        dx=np.float32(0.5), density=np.float64(1000), viscosity=np.float64(1e-2), upper=np.full(3, 6.0), mask=np.int64(3), ids=np.array([0, 4]),
+        boundary=np.array(PERIODIC), boundaryVelocity=np.zeros((6, 3)), inertia=np.bool_(False), lubrication=np.bool_(True),
+    )
+    check(fluid.cells == (12, 12, 12) and fluid.mask == 3 and fluid.ids == [0, 4] and fluid.boundary == PERIODIC, "values differ")
+    check(fluid.inertia is False and fluid.lubrication is True, "truths differ")
 
 
 def refused_by_plan_and_run(text, fluid):
@@ -176,6 +191,39 @@ def a_time_step_that_is_no_number_is_refused():
     for dt in (0, NAN):  # YADE itself refuses a negative one
         O.dt = dt
         refused_by_plan_and_run("O.dt = ", fluid)
+
+
+def a_time_step_of_very_many_fluid_steps_is_refused():
+    """Before and during a run: nobody would see an end of it."""
+    fluid = one_sphere()
+    O.dt = 1e3
+    refused_by_plan_and_run("time step of the grains = 1000 s: holds", fluid)
+    O.dt = 1e-2
+    O.run(3, True)
+    O.dt = 1e3
+    check_raises(RuntimeError, "O.dt = 1000: holds", lambda: O.run(3, True))
+    steps = fluid.fluidSteps
+    O.dt = 1e-2
+    O.run(3, True)
+    check(fluid.fluidSteps > steps, "fluid does not go on with a sensible step")
+
+
+def more_threads_than_processors_are_not_used():
+    fluid = one_sphere(ompThreads=100000)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        O.run(2, True)
+    check(any("ompThreads = 100000: there are" in str(warning.message) for warning in caught), "no warning")
+
+
+def bodies_outside_the_box_are_pointed_out():
+    fluid = one_sphere()
+    text = "No body is in the fluid's box, (0, 0, 0) to (0.012, 0.012, 0.012) m"
+    check(text not in str(fluid.plan()), "warning without reason")
+    O.bodies[0].state.pos = (6, 6, 6)  # in millimetres
+    check(text in str(fluid.plan()), "no warning: %s" % fluid.plan())
+    fluid.boundary = PERIODIC
+    check(text not in str(fluid.plan()), "warning without reason")
 
 
 def too_fast_for_the_lattice_is_refused_before_the_run():
@@ -321,6 +369,7 @@ prove(
     an_inflow_without_a_way_out_is_refused,
     a_pressure_that_the_lattice_cannot_hold_is_refused,
     other_kinds_and_names_are_refused,
+    numpy_values_are_taken,
     missing_values_are_named,
     a_fluid_without_spheres_is_refused,
     unknown_ids_are_refused,
@@ -330,6 +379,9 @@ prove(
     a_place_where_loads_are_lost_is_refused,
     a_free_sphere_without_mass_is_refused,
     a_time_step_that_is_no_number_is_refused,
+    a_time_step_of_very_many_fluid_steps_is_refused,
+    more_threads_than_processors_are_not_used,
+    bodies_outside_the_box_are_pointed_out,
     too_fast_for_the_lattice_is_refused_before_the_run,
     too_fast_for_the_lattice_stops_the_run,
     a_state_that_cannot_be_kept_does_not_hide_the_reason,

@@ -51,6 +51,11 @@ class BadInput : public CppUnit::TestFixture {
         assert_says(config_error([](auto& c) { c.gravity[2] = kNaN; }), "gravity = ");
         assert_says(config_error([](auto& c) { c.acceleration[0] = kNaN; }), "acceleration = ");
         assert_says(config_error([](auto& c) { c.threads = -1; }), "threads = -1");
+        for (const double lower : {1e13, -1e300})
+            assert_says(config_error([&](auto& c) { c.lower[1] = lower; }), "move the origin nearer to the box");
+        // Products of these would be zero or infinite, and flows silently nought.
+        assert_says(config_error([](auto& c) { c.density = 1e-200, c.viscosity = 1e100; }), "are these SI units?");
+        assert_says(config_error([](auto& c) { c.dx = 1e-100; }), "dx = 1e-100 m, density = 1 kg/m3");
         assert_says(config_error([](auto& c) { c.faces[kXMin].type = FaceType::no_slip; }),
                     "boundary along x: one face is periodic");
         assert_says(config_error([](auto& c) {

@@ -28,6 +28,7 @@ class Planner : public CppUnit::TestFixture {
     CPPUNIT_TEST(resolution_errors_are_those_that_were_measured);
     CPPUNIT_TEST(a_grain_step_is_suggested_that_the_fluid_step_is_a_multiple_of);
     CPPUNIT_TEST(long_grain_steps_are_divided);
+    CPPUNIT_TEST(grain_steps_of_very_many_fluid_steps_are_refused);
     CPPUNIT_TEST(a_given_tau_is_kept);
     CPPUNIT_TEST(violated_limits_are_named_with_a_remedy);
     CPPUNIT_TEST(remedies_work);
@@ -197,6 +198,18 @@ class Planner : public CppUnit::TestFixture {
         const Plan p = plan_time_step(request(0.02));
         CPPUNIT_ASSERT(p.tau <= kMaxPlannedTau && p.mach <= 0.2);
         CPPUNIT_ASSERT_DOUBLES_EQUAL(0.02, p.fluid_dt * std::round(1 / p.steps_per_fluid_step), 1e-15);
+    }
+
+    void grain_steps_of_very_many_fluid_steps_are_refused()
+    {
+        const Plan p = plan_time_step(request(1));
+        CPPUNIT_ASSERT(p.fluid_dt > 1 / kMaxFluidStepsPerGrainStep);
+        const std::string said = says<ConfigError>([] { plan_time_step(request(1e3)); });
+        assert_says(said, "time step of the grains = 1000 s: holds ");
+        assert_says(said, "at most 10000 are possible; use one of at most ");
+        PlanRequest given = request(1e3);
+        given.tau = 1;
+        assert_says(says<ConfigError>([&] { plan_time_step(given); }), "(tau = 1), at most 10000");
     }
 
     void a_given_tau_is_kept()

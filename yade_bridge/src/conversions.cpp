@@ -1,6 +1,11 @@
 #include "conversions.hpp"
 
+#include "lbm/errors.hpp"
+
 #include <lib/base/Math.hpp>
+
+#include <limits>
+#include <string>
 
 namespace yadelbm {
 namespace bp = boost::python;
@@ -56,18 +61,24 @@ void from_python(const char* name, const bp::object& value, double& result)
 
 void from_python(const char* name, const bp::object& value, int& result)
 {
-    const bool whole = PyIndex_Check(value.ptr());
-    const long number = whole ? PyLong_AsLong(bp::object(bp::handle<>(PyNumber_Index(value.ptr()))).ptr()) : 0;
-    if (!whole || PyErr_Occurred() || number != static_cast<int>(number)) {
-        PyErr_Clear();
-        type_error(name, value, "a whole number");
-    }
+    if (!PyIndex_Check(value.ptr())) type_error(name, value, "a whole number");
+    const long number = PyLong_AsLong(bp::object(bp::handle<>(PyNumber_Index(value.ptr()))).ptr());
     result = static_cast<int>(number);
+    if (!PyErr_Occurred() && number == result) return;
+    PyErr_Clear();
+    const std::string got = bp::extract<std::string>(bp::str(value));
+    throw lbm::ConfigError(std::string(name) + " = " + got + ": must be within +-" +
+                           std::to_string(std::numeric_limits<int>::max()));
 }
 
 void from_python(const char* name, const bp::object& value, bool& result)
 {
-    extract_as(name, value, "True or False", result);
+    // Python's, NumPy's, or 0 and 1; nothing else, though everything has a truth in Python
+    const std::string type = bp::extract<std::string>(value.attr("__class__").attr("__name__"));
+    const bool is_truth = PyBool_Check(value.ptr()) || type == "bool_" || type == "bool";
+    const int truth = is_truth || PyLong_Check(value.ptr()) ? PyObject_IsTrue(value.ptr()) : -1;
+    if (truth < 0 || !(is_truth || value == bp::object(truth))) type_error(name, value, "True or False");
+    result = truth == 1;
 }
 
 void from_python(const char* name, const bp::object& value, std::string& result)

@@ -9,6 +9,8 @@
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
 
+#include <omp.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -58,7 +60,13 @@ void LbmEngine::action()
     try {
         const bool begins = this->begins();
         if (begins) ask_python();
-        advance();
+        try {
+            advance();
+        } catch (const lbm::RunError& error) {
+            const std::lock_guard lock(mutex_);
+            if (failure_.empty()) failure_ = error.what();
+            throw;
+        }
         if (begins) warn();
     } catch (...) {
         // O.run(n, True) starts the thread of this step and then waits for it; if the step has failed before the wait
@@ -81,7 +89,7 @@ void LbmEngine::ask_python()
         read_solids(*scene, {settings_.mask, settings_.ids}, 0, solids);
         asked_.lubrication_law = lubrication_law(*scene);
         asked_.contact_frequency = contact_frequency(*scene, solids);
-        asked_.warnings = scene_warnings(*scene, settings_);
+        asked_.warnings = scene_warnings(*scene, settings_, solids);
     } catch (const boost::python::error_already_set&) {
         PyErr_Clear();
     }
@@ -109,6 +117,7 @@ void LbmEngine::advance()
     if (!fluid_) start();
     bool spread = follow_grains();
     if (replan_ && schedule_.fluid_step_due()) follow_time_step();
+    check_grain_step();
     for (; schedule_.fluid_step_due(); spread = true) step_fluid();
 
     const Stopwatch out;
@@ -158,9 +167,20 @@ void LbmEngine::start()
     request.contact_frequency = asked_.contact_frequency;
     const lbm::Plan plan = lbm::plan_time_step(request);
     asked_.warnings.insert(asked_.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
-    auto fluid = std::make_unique<lbm::Fluid>(fluid_config(settings_, plan.tau, std::max(0, ompThreads)));
+    auto fluid = std::make_unique<lbm::Fluid>(fluid_config(settings_, plan.tau, threads_to_use()));
     schedule_ = Schedule(scene->dt, fluid->dt());
     fluid_ = std::move(fluid);
+}
+
+/// Of the fluid: 0 leaves it to OpenMP. More than there are processors only get into each other's way.
+int LbmEngine::threads_to_use()
+{
+    const int processors = omp_get_num_procs();
+    if (ompThreads <= processors) return std::max(0, ompThreads);
+    asked_.warnings.push_back("ompThreads = " + std::to_string(ompThreads) + ": there are " +
+                              std::to_string(processors) + " processors, so " + std::to_string(processors) +
+                              " are used");
+    return processors;
 }
 
 /// Brings the schedule and the deliveries to the start of this grain step; true if the rest has to be spread anew.
@@ -199,6 +219,17 @@ void LbmEngine::follow_time_step()
     } catch (const lbm::ConfigError&) {
         // no better step than the present one, and that one still does: any ratio to the grains' step works
     }
+}
+
+/// The first one was checked with the plan.
+void LbmEngine::check_grain_step() const
+{
+    const double most = lbm::kMaxFluidStepsPerGrainStep * fluid_->dt();
+    if (schedule_.grain_dt() <= 1.001 * most) return;
+    throw lbm::ConfigError("O.dt = " + text(schedule_.grain_dt()) + ": holds " +
+                           text(schedule_.grain_dt() / fluid_->dt()) + " fluid steps of " + text(fluid_->dt()) +
+                           " s, at most " + text(lbm::kMaxFluidStepsPerGrainStep) +
+                           " are possible; use O.dt <= " + text(most));
 }
 
 /// A time stepper that stands behind the fluid changes O.dt after the loads were written: ask how far the scene's time
@@ -332,7 +363,7 @@ FluidPlan LbmEngine::plan() const
     request.contact_frequency = contact_frequency(now, solids);
     FluidPlan plan{lbm::plan_time_step(request), fluid_cells()};
     lbm::Fluid::check(fluid_config(settings_, plan.tau, 0));
-    for (const std::string& warning : scene_warnings(now, settings_)) {
+    for (const std::string& warning : scene_warnings(now, settings_, solids)) {
         plan.warnings.push_back(warning);
         if (!plan.report.empty() && plan.report.back() != '\n') plan.report += '\n';
         plan.report += "  warning: " + warning + '\n';

@@ -90,9 +90,11 @@ private:
     void warn();
     void advance();
     void start();
+    int threads_to_use();
     void forget();
     bool follow_grains();
     void follow_time_step();
+    void check_grain_step() const;
     double length_of_last_grain_step(const yade::Scene& now) const;
     void step_fluid();
     void add_films();

@@ -44,10 +44,11 @@ std::string lubrication_law(const yade::Scene& scene);
 void check_lubrication(const Settings& settings, const std::string& law);
 
 /**
- * What in the scene is likely not meant, each a sentence: damping, another gravity, contacts that do not cross a periodic
+ * What in the scene is likely not meant, each a sentence: no body in the fluid's box, damping, another gravity, contacts that do not cross a periodic
  * face, a time stepper behind the fluid. Asks Python: the interpreter must be held.
  */
-std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& settings);
+std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& settings,
+                                        const std::vector<lbm::Solid>& solids);
 
 /**
  * Frequency sqrt(k / m) of the stiffest contact [rad/s]: of those that there are, else of two equal spheres, from Young's moduli and radii

@@ -31,6 +31,19 @@ void warn_about_integrator(const bp::object& integrator, const Settings& s, std:
                               text(s.gravity) + " differ: weight and buoyancy of a grain do not belong together.");
 }
 
+/// False only for a solid that surely lies outside of the box.
+bool may_reach_into(const Settings& s, const lbm::Solid& solid)
+{
+    const auto& h = solid.half_extents;
+    const double reach =
+        solid.shape == lbm::Shape::box ? std::sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]) : solid.radius;
+    for (int d = 0; d < 3; ++d)
+        if (s.boundary[2 * d] != "periodic" &&
+            (solid.position[d] + reach < s.lower[d] || solid.position[d] - reach > s.upper[d]))
+            return false;
+    return true;
+}
+
 /// Mass that answers to a force on the body; infinite for one that is blocked.
 double inverse_mass(const bp::object& body)
 {
@@ -104,9 +117,13 @@ void check_lubrication(const Settings& s, const std::string& law)
     throw lbm::ConfigError(text);
 }
 
-std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& s)
+std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& s,
+                                        const std::vector<lbm::Solid>& solids)
 {
     std::vector<std::string> warnings;
+    if (std::none_of(solids.begin(), solids.end(), [&](const lbm::Solid& solid) { return may_reach_into(s, solid); }))
+        warnings.push_back("No body is in the fluid's box, " + text(s.lower) + " to " + text(s.upper) +
+                           " m: have they the same origin, and are all lengths in metres?");
     bool behind_fluid = false;
     for (const auto& other : scene.engines) {
         if (!other) continue;

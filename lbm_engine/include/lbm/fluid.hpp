@@ -35,7 +35,8 @@ struct StressParts {
  *
  * A coupled step reads: `place_solids` (where they are now), `step`, `loads` (what to apply until the next step), and in each of the solids' own steps until then
  * `film_loads`, which the lattice does not resolve.
- * All quantities are SI. The object is valid from construction on, prints nothing and owns the whole state of the fluid.
+ * All quantities are SI. The object is valid from construction on, prints nothing and owns the whole state of the fluid. Where memory runs out, what changes it
+ * throws a RunError and it must not be used any more; what only reads it throws std::bad_alloc.
  */
 class Fluid {
 public:

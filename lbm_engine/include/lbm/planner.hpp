@@ -66,6 +66,9 @@ struct StepEstimate {
     double cost = 0;                   ///< wall-clock seconds per simulated second
 };
 
+/// A grain step with more is refused: shorter grain steps cost nothing beside so many, and nobody waits unawares.
+inline constexpr double kMaxFluidStepsPerGrainStep = 1e4;
+
 /// A time step for the fluid that fits the grains' own, and what it means.
 struct Plan : StepEstimate {
     double reynolds = 0;            ///< of a grain of mean diameter at the expected speed; 0 without solids

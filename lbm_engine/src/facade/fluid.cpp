@@ -12,14 +12,27 @@ Fluid::Fluid(Fluid&&) noexcept = default;
 Fluid& Fluid::operator=(Fluid&&) noexcept = default;
 
 const FluidConfig& Fluid::config() const noexcept { return implementation_->config; }
-void Fluid::place_solids(const std::vector<Solid>& solids) { implementation_->place(solids); }
-void Fluid::step() { implementation_->step(); }
-void Fluid::change_tau(double tau) { implementation_->change_tau(tau); }
-void Fluid::change_faces(const std::array<FaceCondition, 6>& faces) { implementation_->change_faces(faces); }
+void Fluid::place_solids(const std::vector<Solid>& solids)
+{
+    implementation_->change("the map of solids", [&] { implementation_->place(solids); });
+}
+void Fluid::step()
+{
+    implementation_->change("a step", [&] { implementation_->step(); });
+}
+void Fluid::change_tau(double tau)
+{
+    implementation_->change("another tau", [&] { implementation_->change_tau(tau); });
+}
+void Fluid::change_faces(const std::array<FaceCondition, 6>& faces)
+{
+    implementation_->change("other faces", [&] { implementation_->change_faces(faces); });
+}
 const std::vector<SolidLoad>& Fluid::loads() const noexcept { return implementation_->loads; }
 const std::vector<SolidLoad>& Fluid::film_loads(const std::vector<Solid>& solids, double dt)
 {
-    return implementation_->film_loads(solids, dt);
+    implementation_->change("the films between solids", [&] { implementation_->film_loads(solids, dt); });
+    return implementation_->loads_of_films;
 }
 double Fluid::dt() const noexcept { return implementation_->dt; }
 double Fluid::time() const noexcept { return implementation_->time(); }
@@ -27,10 +40,6 @@ std::int64_t Fluid::steps() const noexcept { return implementation_->steps; }
 double Fluid::max_mach() const noexcept { return std::sqrt(implementation_->max_speed2) / kSpeedOfSound; }
 StepTimes Fluid::times() const noexcept { return implementation_->times; }
 
-std::size_t Fluid::memory_bytes() const
-{
-    return std::visit([](const auto& f) { return f.memory.bytes(); }, implementation_->populations) +
-           implementation_->map.memory_bytes();
-}
+std::size_t Fluid::memory_bytes() const { return implementation_->memory_bytes(); }
 
 }  // namespace lbm

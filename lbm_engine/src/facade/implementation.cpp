@@ -75,12 +75,16 @@ AnyPopulations make_populations_of(const FluidConfig& c)
 AnyPopulations make_populations(const FluidConfig& c)
 {
     const ThreadCount threads(c.threads);
-    try {
-        return c.lattice == Lattice::d3q27 ? make_populations_of<D3Q27>(c) : make_populations_of<D3Q19>(c);
-    } catch (const std::bad_alloc&) {
-        throw ConfigError(message("cells = ", c.cells[0], " x ", c.cells[1], " x ", c.cells[2],
-                                  ": more memory than there is; use a larger dx, or single storage"));
-    }
+    return c.lattice == Lattice::d3q27 ? make_populations_of<D3Q27>(c) : make_populations_of<D3Q19>(c);
+}
+
+double bytes_of_populations(const FluidConfig& c)
+{
+    const bool single = c.storage == Storage::single_precision;
+    const std::size_t bytes = single ? sizeof(float) : sizeof(double);
+    const std::size_t slots =
+        c.lattice == Lattice::d3q27 ? Layout<D3Q27>(c.cells, bytes).slots : Layout<D3Q19>(c.cells, bytes).slots;
+    return static_cast<double>(slots * bytes);
 }
 
 /// Faces that are mirrors of the flow (domain/faces.hpp).
@@ -95,16 +99,29 @@ std::array<bool, 6> mirrors(const FluidConfig& c)
 }  // namespace
 
 Fluid::Implementation::Implementation(const FluidConfig& c)
-    : config(validated(c))
-    , dt(fluid_time_step(c.tau, c.dx, c.viscosity / c.density))
-    , units(c.dx, dt, c.density)
-    , collision(collision_parameters(c, units))
-    , populations(make_populations(c))
-    , faces(std::visit([&](const auto& f) { return Faces(f.layout, lattice_faces(c, units), c.inertia); }, populations))
-    , map(c.cells, periodic_axes(c), mirrors(c), Weighting(c.lattice, magic_parameter(c)), c.scheme == Scheme::exact)
-    , films(c.cells, periodic_axes(c), c.lubrication_roughness)
-{
+try : config(validated(c)), dt(fluid_time_step(c.tau, c.dx, c.viscosity / c.density)), units(c.dx, dt, c.density),
+    collision(collision_parameters(c, units)), populations(make_populations(c)),
+    faces(std::visit([&](const auto& f) { return Faces(f.layout, lattice_faces(c, units), c.inertia); }, populations)),
+    map(c.cells, periodic_axes(c), mirrors(c), Weighting(c.lattice, magic_parameter(c)), c.scheme == Scheme::exact),
+    films(c.cells, periodic_axes(c), c.lubrication_roughness) {
     start_at(mean_face_pressure(lattice_faces(c, units)), (1 / units.velocity) * c.initial_velocity);
+} catch (const std::bad_alloc&) {
+    throw ConfigError(message("cells = ", c.cells[0], " x ", c.cells[1], " x ", c.cells[2], ": need ",
+                              bytes_of_populations(c) / 1e9, " GB of memory, more than there is; use a larger dx",
+                              c.storage == Storage::single_precision ? "" : ", or single storage"));
+}
+
+std::size_t Fluid::Implementation::memory_bytes() const
+{
+    return std::visit([](const auto& f) { return f.memory.bytes(); }, populations) + map.memory_bytes();
+}
+
+void Fluid::Implementation::throw_out_of_memory(const char* asked) const
+{
+    throw RunError(message("no memory is left for ", asked, ": the fluid and the map of its solids take ",
+                           1e-9 * static_cast<double>(memory_bytes()),
+                           " GB already; the fluid is lost, start again with a larger dx",
+                           config.storage == Storage::single_precision ? "" : ", or single storage"));
 }
 
 /// The fluid in equilibrium at one density and velocity. All slots, since what left through the faces has to fit too.

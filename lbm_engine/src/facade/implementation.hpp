@@ -10,6 +10,7 @@
 
 #include <omp.h>
 
+#include <new>
 #include <unordered_map>
 #include <variant>
 
@@ -65,6 +66,22 @@ struct Fluid::Implementation {
     StepTimes times;
 
     explicit Implementation(const FluidConfig& c);
+
+    std::size_t memory_bytes() const;
+    /**
+     * Changes the fluid. Where memory runs out in the middle of it nobody may use it any more.
+     * @param asked  what the memory was asked for, in the message
+     */
+    template <class Change>
+    void change(const char* asked, Change make)
+    {
+        try {
+            make();
+        } catch (const std::bad_alloc&) {
+            throw_out_of_memory(asked);
+        }
+    }
+    [[noreturn]] void throw_out_of_memory(const char* asked) const;
 
     void start_at(double drho, const Vec3& u);
     void place(const std::vector<Solid>& now);

@@ -8,7 +8,7 @@ namespace lbm {
 namespace planning {
 namespace {
 
-constexpr int kMaxFluidStepsPerGrainStep = 1000;
+constexpr int kMaxRankedFluidSteps = 1000;  // per grain step
 
 /// Sound crosses a solid this often before its load is settled to about 1 % (docs/physics.md, "Transients").
 constexpr double kSoundCrossingsToSettle = 10;
@@ -154,7 +154,7 @@ std::vector<StepEstimate> ranked(const PlanRequest& r, const Range& range)
 
     const auto fewest_parts = [&](double dt) { return std::max(2.0, std::ceil(r.grain_dt / dt * (1 - kHair))); };
     const double most_parts =
-        std::min<double>(kMaxFluidStepsPerGrainStep, std::floor(r.grain_dt / range.shortest * (1 + kHair)));
+        std::min<double>(kMaxRankedFluidSteps, std::floor(r.grain_dt / range.shortest * (1 + kHair)));
     for (const double n : whole_numbers(fewest_parts(range.longest), most_parts))
         all.push_back(of_grain_steps(r, 1 / n));
     if (const double n = fewest_parts(range.accurate); n <= most_parts) all.push_back(of_grain_steps(r, 1 / n));
@@ -199,6 +199,17 @@ StepEstimate given_step(const PlanRequest& r)
     return e;
 }
 
+/// Fluid steps in a grain step; units that are mixed up make astronomical numbers of them.
+void require_few(const PlanRequest& r, const StepEstimate& e)
+{
+    const double most = kMaxFluidStepsPerGrainStep * e.fluid_dt;
+    if (r.grain_dt <= most * (1 + kHair)) return;
+    throw ConfigError(message("time step of the grains = ", r.grain_dt, " s: holds ", r.grain_dt / e.fluid_dt,
+                              " fluid steps of ", e.fluid_dt, " s (tau = ", e.tau, "), at most ",
+                              kMaxFluidStepsPerGrainStep, " are possible; use one of at most ", most,
+                              " s, or a larger dx"));
+}
+
 }  // namespace
 }  // namespace planning
 
@@ -220,6 +231,7 @@ Plan plan_time_step(const PlanRequest& r)
         p.ranking.insert(p.ranking.begin(), given);
     }
     static_cast<StepEstimate&>(p) = p.ranking.front();
+    require_few(r, p);
     const double nu = kinematic_viscosity(r);
     const double longest_edge = r.dx * *std::max_element(r.cells.begin(), r.cells.end());
     double scale = 0.5 * longest_edge;

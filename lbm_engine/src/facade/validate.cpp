@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <unordered_set>
 
 namespace lbm {
@@ -72,6 +73,29 @@ void validate_face(const FluidConfig& c, int index)
             ", a smaller dx, or take a part that is common to all pressure faces off"));
 }
 
+/// Grains are placed to within this part of a cell, wherever the box stands.
+constexpr double kPlace = 1e-4;
+
+/// Numbers must hold what is computed.
+void validate_scales(const FluidConfig& c)
+{
+    for (int d = 0; d < 3; ++d) {
+        const double apart = std::abs(c.lower[d]) * std::numeric_limits<double>::epsilon();
+        if (apart > kPlace * c.dx)
+            throw ConfigError(message("lower along ", kAxis[d], " = ", c.lower[d], " m: numbers of that size are ",
+                                      apart, " m apart, too far for dx = ", c.dx,
+                                      " m; move the origin nearer to the box"));
+    }
+    const double dt = fluid_time_step(c.tau, c.dx, c.viscosity / c.density);
+    const Units units(c.dx, dt, c.density);
+    for (const double unit :
+         {units.time, units.velocity, units.acceleration, units.inertia, units.pressure, units.torque})
+        if (!std::isnormal(unit))
+            throw ConfigError(message("dx = ", c.dx, " m, density = ", c.density, " kg/m3, viscosity = ", c.viscosity,
+                                      " Pa s: the fluid step would be ", dt,
+                                      " s, beyond what numbers hold; are these SI units?"));
+}
+
 /// What comes in through velocity faces must leave somewhere.
 void validate_inflow(const FluidConfig& c)
 {
@@ -117,6 +141,7 @@ void validate(const FluidConfig& c)
     require_finite("gravity", c.gravity, "m/s2");
     require_finite("acceleration", c.acceleration, "m/s2");
     require_finite("initial_velocity", c.initial_velocity, "m/s");
+    validate_scales(c);
     if (c.threads < 0) throw ConfigError(message("threads = ", c.threads, ": must be >= 0; 0 leaves it to OpenMP"));
     for (int d = 0; d < 3; ++d) {
         const FaceCondition &low = c.faces[2 * d], &high = c.faces[2 * d + 1];

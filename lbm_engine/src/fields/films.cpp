@@ -1,5 +1,7 @@
 #include "fields/films.hpp"
 
+#include "fields/first_exception.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -65,12 +67,15 @@ void Films::search(const std::vector<FilmSphere>& spheres, const std::array<cons
     }
     neighbours_.sort(centres_, 2 * largest + kWidestFilm + kMargin);
     const auto count = static_cast<std::int64_t>(spheres.size());
+    FirstException out_of_memory;
 #pragma omp parallel for schedule(dynamic, 1) if (count > 64)
-    for (int part = 0; part < kParts; ++part) {
-        parts_[part].near.clear();
-        for (std::int64_t s = count * part / kParts; s < count * (part + 1) / kParts; ++s)
-            search_around(static_cast<std::int32_t>(s), spheres, walls, parts_[part].near);
-    }
+    for (int part = 0; part < kParts; ++part)
+        out_of_memory.keep([&] {
+            parts_[part].near.clear();
+            for (std::int64_t s = count * part / kParts; s < count * (part + 1) / kParts; ++s)
+                search_around(static_cast<std::int32_t>(s), spheres, walls, parts_[part].near);
+        });
+    out_of_memory.rethrow();
     for (int face = 0; face < 6; ++face) searched_walls_[face] = walls[face] != nullptr;
     searched_.clear();
     for (const FilmSphere& s : spheres) searched_.push_back({s.centre, s.radius, s.body});
@@ -155,8 +160,10 @@ const std::vector<FilmLoad>& Films::solve(const std::vector<FilmSphere>& spheres
 {
     if (!still_near(spheres, walls)) search(spheres, walls);
     gather_bodies(spheres, walls);
+    FirstException out_of_memory;
 #pragma omp parallel for schedule(dynamic, 1) if (spheres.size() > 64)
-    for (int part = 0; part < kParts; ++part) make_films(spheres, viscosity, parts_[part]);
+    for (int part = 0; part < kParts; ++part) out_of_memory.keep([&] { make_films(spheres, viscosity, parts_[part]); });
+    out_of_memory.rethrow();
     places_.clear();
     films_.clear();
     for (const Part& part : parts_) {

@@ -1,5 +1,6 @@
 #include "fields/solid_map.hpp"
 
+#include "fields/first_exception.hpp"
 #include "fields/wall_cells.hpp"
 #include "lattice/wrap.hpp"
 
@@ -161,33 +162,36 @@ void SolidMap::update(const std::vector<LatticeSolid>& solids, const std::vector
     fractions_.resize(std::max<std::size_t>(fractions_.size(), omp_get_max_threads()), {n_, periodic_});
     opposite_.resize(fractions_.size());
     cut_cells_.resize(fractions_.size());
+    FirstException out_of_memory;
 #pragma omp parallel reduction(|| : spans_changed, boxes_changed) if (count > 8)
     {
         SolidFraction& fraction = fractions_[omp_get_thread_num()];
         std::vector<SolidGeometry> others;
         std::vector<Opposite>& opposite = opposite_[omp_get_thread_num()];
 #pragma omp for schedule(dynamic, 8)
-        for (std::ptrdiff_t s = 0; s < count; ++s) {
-            MappedSolid& solid = solids_[s];
-            solid.solid = solids[s];
-            bool changed = moved[s];
-            others.clear();
-            if (any_body)
-                for (const int o : earlier[s]) {
-                    others.push_back(solids[o].geometry);
-                    changed = changed || moved[o];
+        for (std::ptrdiff_t s = 0; s < count; ++s)
+            out_of_memory.keep([&] {
+                MappedSolid& solid = solids_[s];
+                solid.solid = solids[s];
+                bool changed = moved[s];
+                others.clear();
+                if (any_body)
+                    for (const int o : earlier[s]) {
+                        others.push_back(solids[o].geometry);
+                        changed = changed || moved[o];
+                    }
+                if (search) {
+                    pores_.find(s, solids, opposite);
+                    changed = changed || opposite != solid.opposite;
+                    std::swap(solid.opposite, opposite);
                 }
-            if (search) {
-                pores_.find(s, solids, opposite);
-                changed = changed || opposite != solid.opposite;
-                std::swap(solid.opposite, opposite);
-            }
-            if (!changed) continue;
-            map(solid, fraction, cut_cells_[omp_get_thread_num()], others);
-            spans_changed = true;
-            boxes_changed = boxes_changed || solid.solid.geometry.shape == Shape::box;
-        }
+                if (!changed) return;
+                map(solid, fraction, cut_cells_[omp_get_thread_num()], others);
+                spans_changed = true;
+                boxes_changed = boxes_changed || solid.solid.geometry.shape == Shape::box;
+            });
     }
+    out_of_memory.rethrow();
     if (spans_changed) list_rows();
     if (boxes_changed) mark_walls();
     tell_rows();

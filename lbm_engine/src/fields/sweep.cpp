@@ -11,7 +11,10 @@ RowSaturation& scratch_row(int nx)
     thread_local RowSaturation row(nx);
     thread_local int cells = nx;
     // What a longer row left in the padding of this one, perhaps not even numbers, would count, times 0, in sums over blocks.
-    if (cells != nx) row = RowSaturation(cells = nx);
+    if (cells != nx) {
+        row = RowSaturation(nx);
+        cells = nx;
+    }
     return row;
 }
 
@@ -36,8 +39,9 @@ FlowWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bo
     const int nx = layout.n[0];
     FlowWatch all;
     solids.clear_sums();
+    FirstException out_of_memory;
 #pragma omp parallel
-    {
+    if (out_of_memory.all_succeed([&] { scratch_row(nx); })) {
         RowSaturation& cells = scratch_row(nx);
         FlowWatch watch;
         for_rows(solids.units(), [&](std::size_t row, int y, int z) {
@@ -57,6 +61,7 @@ FlowWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bo
 #pragma omp critical
         all.see(watch);
     }
+    out_of_memory.rethrow();
     populations.odd = !populations.odd;
     return all;
 }
@@ -66,9 +71,11 @@ void sum_inside(const Populations<L, T>& populations, const CollisionParameters&
                 Vec3 CellState::*momentum)
 {
     solids.clear_sums();
+    const int nx = populations.layout.n[0];
+    FirstException out_of_memory;
 #pragma omp parallel
-    {
-        RowSaturation& cells = scratch_row(populations.layout.n[0]);
+    if (out_of_memory.all_succeed([&] { scratch_row(nx); })) {
+        RowSaturation& cells = scratch_row(nx);
         for_rows(solids.units(), [&](std::size_t row, int y, int z) {
             if (!solids.covers(row)) return;
             solids.saturate(row, cells);
@@ -83,6 +90,7 @@ void sum_inside(const Populations<L, T>& populations, const CollisionParameters&
             solids.collect(row, cells);
         });
     }
+    out_of_memory.rethrow();
 }
 
 #define LBM_SWEEP(L, T)                                                                                                \

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fields/first_exception.hpp"
 #include "fields/populations.hpp"
 #include "fields/solid_map.hpp"
 #include "fields/sweep_row.hpp"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <utility>
 
 namespace lbm {
@@ -77,17 +79,22 @@ void for_cells(const Populations<L, T>& populations, const CollisionParameters& 
                Body body)
 {
     const int nx = populations.layout.n[0], ny = populations.layout.n[1], nz = populations.layout.n[2];
+    FirstException out_of_memory;
 #pragma omp parallel
     {
-        RowSaturation cells(nx);
+        std::optional<RowSaturation> scratch;
+        if (out_of_memory.all_succeed([&] { scratch.emplace(nx); })) {
+            RowSaturation& cells = *scratch;
 #pragma omp for schedule(static)
-        for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(ny) * nz; ++row) {
-            const bool covered = solids.covers(row);
-            if (covered) solids.saturate(row, cells);
-            read_row(populations, p, inertia, static_cast<int>(row % ny), static_cast<int>(row / ny), cells, body);
-            if (covered) cells.clear();
+            for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(ny) * nz; ++row) {
+                const bool covered = solids.covers(row);
+                if (covered) solids.saturate(row, cells);
+                read_row(populations, p, inertia, static_cast<int>(row % ny), static_cast<int>(row / ny), cells, body);
+                if (covered) cells.clear();
+            }
         }
     }
+    out_of_memory.rethrow();
 }
 
 /**
