@@ -1,6 +1,7 @@
 #include "fields/solid_map.hpp"
 
 #include "fields/first_exception.hpp"
+#include "fields/populations.hpp"
 #include "fields/wall_cells.hpp"
 #include "lattice/wrap.hpp"
 
@@ -59,17 +60,6 @@ int units_along(int i0, int count, int n, int size)
     Walk walk(i0, n, size);
     for (int i = 1; i < count; ++i) walk.next();
     return std::min(walk.unit + 1, (n + size - 1) / size);
-}
-
-/// Where the first full cells of a span are, and how many. Boxes keep all fractions: their walls have marks beside them.
-std::pair<std::uint8_t, std::uint16_t> full_cells(Shape shape, const double* fractions, int n)
-{
-    if (shape == Shape::box) return {0, 0};
-    const double* const begin = std::find(fractions, fractions + n, 1.0);
-    if (begin - fractions > std::numeric_limits<std::uint8_t>::max()) return {0, 0};
-    const double* end = begin;
-    while (end != fractions + n && *end == 1 && end - begin < std::numeric_limits<std::uint16_t>::max()) ++end;
-    return {static_cast<std::uint8_t>(begin - fractions), static_cast<std::uint16_t>(end - begin)};
 }
 
 /// The first n cells of a span; leaves the others, from x = 0 on.
@@ -225,10 +215,39 @@ double SolidMap::k(const SolidGeometry& geometry) const
     return weighting_.k(geometry.shape == Shape::sphere ? geometry.radius : std::numeric_limits<double>::infinity());
 }
 
+/// Memory that will be written soon is asked for: a solid's lies far from the caches, and stores would wait for it.
+template <class T>
+void prefetch_to_write(const std::vector<T>& list)
+{
+    const char* const begin = reinterpret_cast<const char*>(list.data());
+    const char* const end = begin + list.size() * sizeof(T);
+    for (const char* line = begin; line < end; line += kCacheLine) __builtin_prefetch(line, 1);
+}
+
+/// Of a row: without cells outside the lattice, and with full cells only where a span can tell of them. Boxes keep all fractions: their walls have marks beside them.
+inline RowEnds SolidMap::stored_ends(Shape shape, const SolidFraction& fraction, int j, int k) const
+{
+    if (!is_row_inside(fraction, j, k)) return {};
+    RowEnds ends = fraction.ends(j, k);
+    if (!periodic_[0]) {
+        const int first = fraction.first()[0];
+        for (int* const end : {&ends.begin, &ends.full_begin, &ends.full_end, &ends.end})
+            *end = std::clamp(*end, -first, std::max(-first, n_[0] - first));
+    }
+    constexpr int kMostBefore = std::numeric_limits<std::uint8_t>::max(),
+                  kMostFull = std::numeric_limits<std::uint16_t>::max();
+    ends.full_end = std::min(ends.full_end, ends.full_begin + kMostFull);
+    if (shape == Shape::box || ends.full_begin - ends.begin > kMostBefore || ends.full_begin == ends.full_end)
+        ends.full_begin = ends.full_end = ends.begin;
+    return ends;
+}
+
 void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, CutCells& cut,
                    const std::vector<SolidGeometry>& others) const
 {
     const SolidGeometry& geometry = solid.solid.geometry;
+    prefetch_to_write(solid.spans);
+    prefetch_to_write(solid.fractions);
     fraction.evaluate(geometry, others);
     solid.k = k(geometry);
     measure(solid, fraction, geometry.shape == Shape::sphere && others.empty());
@@ -238,59 +257,33 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, CutCells& cut,
     solid.ny = count[1];
     solid.z0 = first[2];
     solid.nz = count[2];
-    solid.spans.clear();
-    solid.spans.reserve(static_cast<std::size_t>(solid.ny) * solid.nz + 1);
-    std::size_t fractions = kBlock;
+    solid.spans.resize(static_cast<std::size_t>(solid.ny) * solid.nz + 1);
+    Span* span = solid.spans.data();
+    cut.clear();
+    std::uint32_t fractions = kBlock;
+    const Vec3 r = Vec3{first[0] + 0.5, first[1] + 0.5, first[2] + 0.5} - geometry.centre;
     for (int k = 0; k < count[2]; ++k)
         for (int j = 0; j < count[1]; ++j) {
-            // Parts of a sphere behind a wall of the box are left out.
-            const double* row = fraction.row(j, k);
-            int begin = 0, end = is_row_inside(fraction, j, k) ? count[0] : 0;
-            if (!periodic_[0]) {
-                begin = std::clamp(-first[0], begin, end);
-                end = std::clamp(n_[0] - first[0], begin, end);
-            }
-            while (begin < end && row[begin] == 0) ++begin;
-            while (end > begin && row[end - 1] == 0) --end;
-            const auto [before, full] = full_cells(geometry.shape, row + begin, end - begin);
-            solid.spans.push_back({first[0] + begin, static_cast<std::uint32_t>(fractions), before, full});
-            fractions += end - begin - full;
+            const RowEnds ends = stored_ends(geometry.shape, fraction, j, k);
+            const int before = ends.full_begin - ends.begin, full = ends.full_end - ends.full_begin,
+                      after = ends.end - ends.full_end;
+            *span++ = {first[0] + ends.begin, fractions, static_cast<std::uint8_t>(before),
+                       static_cast<std::uint16_t>(full)};
+            if (ends.begin == ends.end) continue;
+            cut.add({fraction.row(j, k) + ends.begin, before, full, after, {r[0] + ends.begin, r[1] + j, r[2] + k}});
+            fractions += before + after;
         }
-    solid.spans.push_back({0, static_cast<std::uint32_t>(fractions), 0, 0});
+    *span = {0, fractions, 0, 0};
     fractions += kBlock;
+    cut.gather();
+    solid.filled = solid.opposite.empty() ? 0 : cut.thicken(geometry.radius, solid.opposite);
     // A solid that moves gets a little more than it needs, and should not ask for memory again.
     const bool moves = !solid.fractions.empty();
     if (fractions > solid.fractions.capacity()) solid.fractions.reserve(fractions + (moves ? fractions / 8 : 0));
     solid.fractions.resize(fractions, 0.0);
-    for (int k = 0; k < solid.nz; ++k)
-        for (int j = 0; j < solid.ny; ++j) {
-            const Span* const span = &solid.spans[static_cast<std::size_t>(k) * solid.ny + j];
-            const double* const row = fraction.row(j, k) + (span->x0 - first[0]);
-            double* const stored = solid.fractions.data() + span->fractions;
-            const std::size_t count = span[1].fractions - span->fractions;
-            std::copy_n(row, span->before, stored);
-            std::copy(row + span->before + span->full, row + count + span->full, stored + span->before);
-        }
-    solid.filled = 0;
-    if (!solid.opposite.empty()) thicken(solid, cut);
+    std::copy_n(cut.fractions(), cut.size(), solid.fractions.begin() + kBlock);
     solid.units_y = units_along(solid.y0, solid.ny, n_[1], units_.rows);
     solid.units_z = units_along(solid.z0, solid.nz, n_[2], units_.planes);
-}
-
-/// What is stored of a sphere are the cells that it cuts.
-void SolidMap::thicken(MappedSolid& solid, CutCells& cut) const
-{
-    const SolidGeometry& geometry = solid.solid.geometry;
-    cut.clear({static_cast<int>(std::floor(geometry.centre[0] - geometry.radius)), solid.y0, solid.z0});
-    for (int k = 0; k < solid.nz; ++k)
-        for (int j = 0; j < solid.ny; ++j) {
-            const Span* const span = &solid.spans[static_cast<std::size_t>(k) * solid.ny + j];
-            const int x = span->x0 + span->before,
-                      rest = static_cast<int>(span[1].fractions - span->fractions) - span->before;
-            cut.add(span->x0, x, solid.y0 + j, solid.z0 + k);
-            cut.add(x + span->full, x + span->full + rest, solid.y0 + j, solid.z0 + k);
-        }
-    solid.filled = cut.thicken(geometry.centre, geometry.radius, solid.opposite, solid.fractions.data() + kBlock);
 }
 
 /// Volume inside the lattice, and whether surfaces cut no cell of it.
@@ -328,6 +321,8 @@ void SolidMap::measure(MappedSolid& solid, const SolidFraction& fraction, bool l
 template <class Body>
 void SolidMap::for_spans(int first_plane, int end_plane, Body body) const
 {
+    // Of units that a solid meets again behind a periodic face the sums are the same.
+    const auto own = [](int unit, int units) { return unit < units ? unit : unit % units; };
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const MappedSolid& solid = solids_[s];
         const int end = solid.z0 + solid.nz;
@@ -335,21 +330,22 @@ void SolidMap::for_spans(int first_plane, int end_plane, Body body) const
         Walk z(solid.z0, n_[2], units_.planes);
         for (int k = 0; k < solid.nz; ++k, z.next()) {
             if (z.cell < first_plane || z.cell >= end_plane) continue;
+            const int units_before = own(z.unit, solid.units_z) * solid.units_y;
+            const std::size_t plane = static_cast<std::size_t>(z.cell) * n_[1];
             Walk y(solid.y0, n_[1], units_.rows);
-            const Span* const spans = solid.spans.data() + static_cast<std::size_t>(k) * solid.ny;
-            for (int j = 0; j < solid.ny; ++j, y.next()) {
-                const auto n = static_cast<std::int32_t>(spans[j + 1].fractions - spans[j].fractions) + spans[j].full;
+            const Span* span = solid.spans.data() + static_cast<std::size_t>(k) * solid.ny;
+            for (int j = 0; j < solid.ny; ++j, ++span, y.next()) {
+                const auto n = static_cast<std::int32_t>(span[1].fractions - span->fractions) + span->full;
                 if (n == 0) continue;
-                const int unit = z.unit % solid.units_z * solid.units_y + y.unit % solid.units_y;
-                body(static_cast<std::size_t>(z.cell) * n_[1] + y.cell,
-                     Piece{static_cast<std::int32_t>(s),
-                           spans[j].fractions,
-                           spans[j].x0,
-                           n,
-                           {0, static_cast<std::int8_t>(y.image), static_cast<std::int8_t>(z.image)},
-                           static_cast<std::uint8_t>(unit),
-                           spans[j].before,
-                           spans[j].full});
+                const int unit = units_before + own(y.unit, solid.units_y);
+                body(plane + y.cell, Piece{static_cast<std::int32_t>(s),
+                                           span->fractions,
+                                           span->x0,
+                                           n,
+                                           {0, static_cast<std::int8_t>(y.image), static_cast<std::int8_t>(z.image)},
+                                           static_cast<std::uint8_t>(unit),
+                                           span->before,
+                                           span->full});
             }
         }
     }
@@ -370,20 +366,26 @@ void SolidMap::list_rows()
         for (int slab = 0; slab < kSlabs; ++slab) for_spans(n_[2] * slab / kSlabs, n_[2] * (slab + 1) / kSlabs, body);
     };
     std::fill(row_begin_.begin(), row_begin_.end(), 0);
+    const int nx = n_[0];
+    const auto is_inside = [nx](const Piece& piece) { return piece.x0 >= 0 && piece.x0 + piece.n <= nx; };
     for_slabs([&](std::size_t row, const Piece& span) {
-        int end = Walk(span.x0, n_[0], 1).cell + span.n;
-        for (; end > 0; end -= n_[0]) ++row_begin_[row + 1];
+        if (is_inside(span)) ++row_begin_[row + 1];
+        else row_begin_[row + 1] += (wrap(span.x0, nx) + span.n + nx - 1) / nx;
     });
     for (std::size_t r = 1; r < row_begin_.size(); ++r) row_begin_[r] += row_begin_[r - 1];
     pieces_.resize(row_begin_.back());
     row_next_.assign(row_begin_.begin(), row_begin_.end() - 1);
     for_slabs([&](std::size_t row, Piece piece) {
+        if (is_inside(piece)) {
+            pieces_[row_next_[row]++] = piece;
+            return;
+        }
         int rest = piece.n;
-        Walk x(piece.x0, n_[0], 1);
-        piece.x0 = x.cell;
-        piece.image[0] = static_cast<std::int8_t>(x.image);
+        const int x0 = wrap(piece.x0, nx);
+        piece.image[0] = static_cast<std::int8_t>((piece.x0 - x0) / nx);
+        piece.x0 = x0;
         while (rest > 0) {
-            piece.n = std::min(rest, n_[0] - piece.x0);
+            piece.n = std::min(rest, nx - piece.x0);
             rest -= piece.n;
             pieces_[row_next_[row]++] = cut(piece);
             ++piece.image[0];

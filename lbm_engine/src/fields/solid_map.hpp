@@ -127,7 +127,7 @@ private:
     void mark_walls();
     void map(MappedSolid& solid, SolidFraction& fraction, CutCells& cut,
              const std::vector<SolidGeometry>& others) const;
-    void thicken(MappedSolid& solid, CutCells& cut) const;
+    RowEnds stored_ends(Shape shape, const SolidFraction& fraction, int j, int k) const;
     void measure(MappedSolid& solid, const SolidFraction& fraction, bool lone_sphere) const;
     void list_rows();
     void tell_rows();

@@ -8,7 +8,7 @@
 namespace lbm {
 namespace {
 
-/// Cells that are written at a time.
+/// Cells that are worked on at a time.
 constexpr int kChunk = 8;
 
 /// Half a diagonal: the centres of cells that a surface cuts are so near it.
@@ -53,23 +53,44 @@ struct Pore {
     }
 };
 
-/// Coordinates along an axis of cells, the first one of all at `first`.
+/// Copies rows of cells in whole chunks, at least one: what follows begins where they end.
 LBM_EACH_ISA
-void coordinates(const std::int16_t* cell, int count, double first, double* x)
+void copy_rows(const CutCells::Row* row, const CutCells::Row* end, double* fraction, double* x, double* y, double* z)
 {
-    for (int i = 0; i < count; ++i) x[i] = first + cell[i];
+    std::ptrdiff_t at = 0;
+    for (; row != end; ++row) {
+        const double y0 = row->first[1], z0 = row->first[2];
+        const double* from = row->fractions;
+        double x0 = row->first[0];
+        int count = row->before;
+        for (int part = 0; part < 2; ++part) {
+            int i = 0;
+            do {
+                for (int l = 0; l < kChunk; ++l) fraction[at + i + l] = from[i + l];
+                for (int l = 0; l < kChunk; ++l) x[at + i + l] = x0 + (i + l);
+                for (int l = 0; l < kChunk; ++l) y[at + i + l] = y0;
+                for (int l = 0; l < kChunk; ++l) z[at + i + l] = z0;
+                i += kChunk;
+            } while (i < count);
+            at += count;
+            from += row->before + row->full;
+            x0 += row->before + row->full;
+            count = row->after;
+        }
+    }
 }
 
 /// Raises the thickening of cells by what a pore asks for; x, y, z: their centres as seen from that of the sphere.
 LBM_EACH_ISA
-void narrow(const Pore& pore, const double* x, const double* y, const double* z, int count, double* thickening)
+void narrow(const Pore& pore, const double* x, const double* y, const double* z, std::size_t count, double* thickening)
 {
     constexpr double kStrength = 3.7, kWidth2 = 4;  // fitted: docs/physics.md
     const double tx = pore.towards[0], ty = pore.towards[1], tz = pore.towards[2];
     const double curvature = 0.5 * (pore.curvature1 + pore.curvature2), curvature2 = pore.curvature2;
     const double distance = pore.distance, over_widest = 1 / pore.widest, twice_curvature1 = 2 * pore.curvature1;
     const double inner2 = pore.inner * pore.inner;
-    for (int i = 0; i < count; ++i) {
+    count &= ~static_cast<std::size_t>(kChunk - 1);  // whole chunks
+    for (std::size_t i = 0; i < count; ++i) {
         const double r2 = x[i] * x[i] + y[i] * y[i] + z[i] * z[i], along = x[i] * tx + y[i] * ty + z[i] * tz;
         const double width = curvature * r2 - along + distance, h = width > 0 ? width : 0;
         const double narrow = 1 - h * over_widest, in_reach = narrow > 0 ? narrow : 0;
@@ -80,14 +101,16 @@ void narrow(const Pore& pore, const double* x, const double* y, const double* z,
     }
 }
 
-/// Thickens the fractions; leaves what was added in place of the thickening.
+/// Thickens the fractions of whole chunks; adds what it added to sums, side by side: one order for all instruction sets.
 LBM_EACH_ISA
-void apply(double* thickening, int count, double* fraction)
+void apply(const double* thickening, std::size_t count, double* fraction, double (&sums)[kChunk])
 {
-    for (int i = 0; i < count; ++i) {
-        thickening[i] *= fraction[i] * (1 - fraction[i]);
-        fraction[i] += thickening[i];
-    }
+    for (std::size_t i = 0; i < count; i += kChunk)
+        for (int l = 0; l < kChunk; ++l) {
+            const double eps = fraction[i + l], more = thickening[i + l] * (eps * (1 - eps));
+            fraction[i + l] = eps + more;
+            sums[l] += more;
+        }
 }
 
 }  // namespace
@@ -98,56 +121,47 @@ double narrow_reach(double radius1, double radius2)
     return radius1 + std::sqrt(radius2 * radius2 + 2 * radius2 * (widest + kCut));
 }
 
-void CutCells::clear(const std::array<int, 3>& corner)
+void CutCells::gather()
 {
-    corner_ = corner;
-    count_ = 0;
     planes_.clear();
-}
-
-/// Rows are written in whole chunks, of which the last one does not count to its end.
-void CutCells::add(int begin, int end, int y, int z)
-{
-    while (static_cast<int>(planes_.size()) <= z - corner_[2]) planes_.push_back(count_);
-    for (int i = begin; i < end; i += kChunk) {
-        if (count_ + kChunk > static_cast<int>(cell_[0].size())) grow();
-        for (int l = 0; l < kChunk; ++l) cell_[0][count_ + l] = static_cast<std::int16_t>(i - corner_[0] + l);
-        for (int l = 0; l < kChunk; ++l) cell_[1][count_ + l] = static_cast<std::int16_t>(y - corner_[1]);
-        for (int l = 0; l < kChunk; ++l) cell_[2][count_ + l] = static_cast<std::int16_t>(z - corner_[2]);
-        count_ += std::min(kChunk, end - i);
+    lowest_ = rows_.empty() ? 0 : rows_.front().first[2];
+    count_ = 0;
+    for (const Row& row : rows_) {
+        while (lowest_ + static_cast<double>(planes_.size()) < row.first[2] + 0.5) planes_.push_back(count_);
+        count_ += row.before + row.after;
     }
+    const std::size_t size = count_ + 2 * kChunk;
+    if (size > fraction_.size()) {
+        for (auto& place : place_) place.resize(2 * size);
+        fraction_.resize(2 * size);
+        thickening_.resize(2 * size);
+    }
+    copy_rows(rows_.data(), rows_.data() + rows_.size(), fraction_.data(), place_[0].data(), place_[1].data(),
+              place_[2].data());
+    std::fill_n(fraction_.begin() + static_cast<std::ptrdiff_t>(count_), kChunk, 0.0);
 }
 
-void CutCells::grow()
+/// Works on whole chunks: cells beyond the last one are empty.
+double CutCells::thicken(double radius, const std::vector<Opposite>& opposite)
 {
-    const std::size_t size = 2 * (cell_[0].size() + 512);
-    for (auto& cell : cell_) cell.resize(size);
-    for (auto& place : place_) place.resize(size);
-    thickening_.resize(size);
-    planes_.reserve(size / 16);
-}
-
-double CutCells::thicken(const Vec3& centre, double radius, const std::vector<Opposite>& opposite, double* fractions)
-{
-    for (int d = 0; d < 3; ++d) coordinates(cell_[d].data(), count_, corner_[d] + 0.5 - centre[d], place_[d].data());
-    std::fill_n(thickening_.begin(), count_, 0.0);
-    const double planes = static_cast<double>(planes_.size());
+    const auto chunks = [](std::size_t count) { return (count + kChunk - 1) / kChunk * kChunk; };
+    std::fill_n(thickening_.begin(), chunks(count_), 0.0);
     for (const Opposite& other : opposite) {
         const Pore pore(radius, other);
         const auto reach = pore.reach_z();
         if (reach.end < reach.begin) continue;
-        const auto plane = [&](double z) {
-            const auto k = static_cast<std::size_t>(std::clamp(centre[2] + z - corner_[2], 0.0, planes));
-            return k < planes_.size() ? planes_[k] : count_;
+        const auto plane = [&](double z) {  // the first cell of the first plane from z on
+            const double k = std::ceil(z - lowest_);
+            return k < static_cast<double>(planes_.size()) ? planes_[static_cast<std::size_t>(std::max(k, 0.0))]
+                                                           : count_;
         };
-        const int first = plane(reach.begin), count = plane(reach.end + 1) - first;
+        const std::size_t first = plane(reach.begin), count = chunks(plane(reach.end) - first);
         narrow(pore, place_[0].data() + first, place_[1].data() + first, place_[2].data() + first, count,
                thickening_.data() + first);
     }
-    apply(thickening_.data(), count_, fractions);
-    std::array<double, 4> sums{};  // side by side, in a fixed order
-    for (int i = 0; i < count_; ++i) sums[i % 4] += thickening_[i];
-    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    double sums[kChunk]{};
+    apply(thickening_.data(), chunks(count_), fraction_.data(), sums);
+    return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
 }
 
 }  // namespace lbm

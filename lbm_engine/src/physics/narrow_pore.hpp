@@ -43,27 +43,36 @@ struct Opposite {
  */
 class CutCells {
 public:
-    /// Forgets all cells. Places of cells are counted from this corner.
-    void clear(const std::array<int, 3>& corner);
+    void clear() { rows_.clear(); }
 
-    /// Adds the cells of a row from begin to end; to be called plane by plane.
-    void add(int begin, int end, int y, int z);
+    /// The cells of a row that are kept: some before and some after those that are full.
+    struct Row {
+        const double* fractions;  ///< of all; up to kReadAhead more are read
+        int before, full, after;
+        Vec3 first;  ///< centre of the first one, as seen from that of the sphere
+    };
+    /// To be called plane by plane.
+    void add(const Row& row) { rows_.push_back(row); }
+
+    /// Copies the fractions of all cells added, in this order.
+    void gather();
 
     /**
-     * Thickens the cells, in the order in which they were added.
+     * Thickens the gathered cells.
      * @return what was added [cells]
      */
-    double thicken(const Vec3& centre, double radius, const std::vector<Opposite>& opposite, double* fractions);
+    double thicken(double radius, const std::vector<Opposite>& opposite);
+
+    std::size_t size() const noexcept { return count_; }
+    const double* fractions() const noexcept { return fraction_.data(); }
 
 private:
-    void grow();
-
-    std::array<int, 3> corner_{};
-    std::array<std::vector<std::int16_t>, 3> cell_;  // from the corner
-    int count_ = 0;
-    std::vector<int> planes_;                   // first cell of each plane
+    std::vector<Row> rows_;
+    std::vector<std::size_t> planes_;  // first cell of each plane
+    double lowest_ = 0;                // plane
+    std::size_t count_ = 0;
     std::array<std::vector<double>, 3> place_;  // from the centre of the sphere
-    std::vector<double> thickening_;
+    std::vector<double> fraction_, thickening_;
 };
 
 }  // namespace lbm

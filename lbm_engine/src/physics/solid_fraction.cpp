@@ -143,12 +143,31 @@ void SolidFraction::evaluate(const SolidGeometry& solid, const std::vector<Solid
         break;
     }
     if (!others.empty()) leave_out(solid, others);
+    if (data_ == own_.data()) find_ends();
+}
+
+void SolidFraction::find_ends()
+{
+    own_ends_.clear();
+    for (int k = 0; k < count_[2]; ++k)
+        for (int j = 0; j < count_[1]; ++j) {
+            const double* const cells = row(j, k);
+            RowEnds ends{0, 0, 0, count_[0]};
+            while (ends.begin < ends.end && cells[ends.begin] == 0) ++ends.begin;
+            while (ends.end > ends.begin && cells[ends.end - 1] == 0) --ends.end;
+            ends.full_begin = static_cast<int>(std::find(cells + ends.begin, cells + ends.end, 1.0) - cells);
+            ends.full_end = ends.full_begin;
+            while (ends.full_end < ends.end && cells[ends.full_end] == 1) ++ends.full_end;
+            own_ends_.push_back(ends);
+        }
+    ends_ = own_ends_.data();
 }
 
 void SolidFraction::make_own()
 {
     if (data_ == own_.data()) return;
     own_.assign(data_, data_ + line_ * count_[1] * count_[2]);
+    own_.resize(own_.size() + kReadAhead);
     data_ = own_.data();
 }
 
@@ -158,6 +177,7 @@ void SolidFraction::sphere(const SolidGeometry& solid)
     first_ = sphere_.first();
     count_ = sphere_.count();
     data_ = sphere_.row(0, 0);
+    ends_ = sphere_.ends();
     line_ = sphere_.line();
 }
 
@@ -180,7 +200,7 @@ void SolidFraction::bounds(const Vec3& centre, const Vec3& half)
         count_[d] = static_cast<int>(end - begin);
     }
     line_ = count_[0];
-    own_.assign(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2], 0.0);
+    own_.assign(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2] + kReadAhead, 0.0);
     data_ = own_.data();
 }
 

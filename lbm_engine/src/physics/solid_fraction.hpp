@@ -40,10 +40,13 @@ public:
 
     const std::array<int, 3>& first() const noexcept { return first_; }  ///< lowest cell
     const std::array<int, 3>& count() const noexcept { return count_; }  ///< cells
+    static constexpr int kReadAhead = 8;                                 ///< numbers that may be read after a row
     const double* row(int j, int k) const noexcept  ///< fractions of count()[0] cells in row (j, k)
     {
         return data_ + (static_cast<std::size_t>(k) * count_[1] + j) * line_;
     }
+    /// In row (j, k), counted from first()[0].
+    RowEnds ends(int j, int k) const noexcept { return ends_[static_cast<std::size_t>(k) * count_[1] + j]; }
 
 private:
     void sphere(const SolidGeometry& solid);
@@ -53,6 +56,7 @@ private:
     void leave_out(const SolidGeometry& solid, const std::vector<SolidGeometry>& others);
     void bounds(const Vec3& centre, const Vec3& half);
     void make_own();
+    void find_ends();
     SolidGeometry nearest_image(const SolidGeometry& other, const Vec3& centre) const;
     double* own_row(int j, int k) noexcept
     {
@@ -63,9 +67,11 @@ private:
     std::array<bool, 3> periodic_;
     std::array<int, 3> first_{}, count_{};
     const double* data_ = nullptr;
+    const RowEnds* ends_ = nullptr;
     std::size_t line_ = 0;  // between rows
     SphereFraction sphere_;
-    std::vector<double> own_;                  // fractions that are not a lone sphere's
+    std::vector<double> own_;  // fractions that are not a lone sphere's
+    std::vector<RowEnds> own_ends_;
     std::array<std::vector<double>, 3> axis_;  // while evaluating a box along the axes
 };
 

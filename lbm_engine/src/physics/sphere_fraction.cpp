@@ -33,13 +33,15 @@ struct Angle {
     }
     [[gnu::always_inline]] double value(double t) const
     {
-        constexpr double kFit[] = {0.9999999999999999653,   -0.3333333333332843857,  0.1999999999885511013,
-                                   -0.1428571418097646683,  0.1111110618045594522,   -0.0909077307480841379,
-                                   0.07689953496306857756,  -0.06640233930429408589, 0.05688349226809010479,
-                                   -0.04348052215716462478, 0.02113537315769324521};
-        const double z = t * t;
-        double fit = kFit[10];
-        for (int i = 9; i >= 0; --i) fit = fit * z + kFit[i];
+        constexpr double c[] = {0.9999999999999999653,   -0.3333333333332843857,  0.1999999999885511013,
+                                -0.1428571418097646683,  0.1111110618045594522,   -0.0909077307480841379,
+                                0.07689953496306857756,  -0.06640233930429408589, 0.05688349226809010479,
+                                -0.04348052215716462478, 0.02113537317769324521};
+        // By pairs: what limits is how long one angle takes, not how many operations.
+        const double z = t * t, z2 = z * z, z4 = z2 * z2;
+        const double low = (c[0] + c[1] * z) + (c[2] + c[3] * z) * z2, mid = (c[4] + c[5] * z) + (c[6] + c[7] * z) * z2,
+                     high = (c[8] + c[9] * z) + c[10] * z2;
+        const double fit = low + (mid + high * z4) * z4;
         const double octant = (wide ? kPi / 4 : 0) + t * fit;
         return steep ? kPi / 2 - octant : octant;
     }
@@ -50,7 +52,7 @@ struct Angle {
 {
     const double w2 = R * R - a * a - b * b;
     const double w = std::sqrt(w2 > 0 ? w2 : 0);
-    const double Qa = a * (R * R - a * a / 3), Qb = b * (R * R - b * b / 3);
+    const double Qa = a * (R * R - (1.0 / 3) * (a * a)), Qb = b * (R * R - (1.0 / 3) * (b * b));
     const double R3 = R * R * R;
     const Angle A(w, b), B(w, a), C(a * b, R * w);
     const double AB = A.denominator * B.denominator, inverse = 1 / (AB * C.denominator);
@@ -62,7 +64,8 @@ struct Angle {
 }
 
 /// Lines of whole vectors need no loop for the rest.
-std::size_t padded(int count) { return (static_cast<std::size_t>(count) + 7) / 8 * 8; }
+constexpr std::size_t kVector = 8;
+std::size_t padded(int count) { return (static_cast<std::size_t>(count) + kVector - 1) / kVector * kVector; }
 
 double half_cap_volume(double a, double R) { return kPi * (R * R * R / 6 - 0.25 * a * (R * R - a * a / 3)); }
 
@@ -70,7 +73,9 @@ double half_cap_volume(double a, double R) { return kPi * (R * R * R / 6 - 0.25 
 LBM_EACH_ISA
 void pair_table(const double* p, std::size_t line, const double* q, int lines, double R, double* table)
 {
+    line &= ~(kVector - 1);
     for (int j = 0; j < lines; ++j)
+#pragma GCC ivdep
         for (std::size_t i = 0; i < line; ++i) table[j * line + i] = quadrant_volume(std::abs(p[i]), std::abs(q[j]), R);
 }
 
@@ -122,6 +127,27 @@ void differences_along_lines(const double* mixed, std::size_t count, double smal
     }
 }
 
+/**
+ * Where rows of a plane meet the sphere: their ends, by the nearest and the farthest points of their cells along y and z.
+ * @param x     of the centre, from the first cell on
+ * @param rest2, inner2  R^2 without what the plane's nearest and farthest points along z take
+ */
+LBM_EACH_ISA
+void ends_of_rows(const double* near2, const double* far2, int lines, double x, int cells, double rest2, double inner2,
+                  RowEnds* ends)
+{
+    for (int j = 0; j < lines; ++j) {
+        const double out2 = rest2 - near2[j], in2 = inner2 - far2[j];
+        const double out = std::sqrt(out2 > 0 ? out2 : 0), in = std::sqrt(in2 > 0 ? in2 : 0);
+        // Conversion of what is not negative rounds down; n minus that of n minus it, up.
+        const int begin = static_cast<int>(x - out), end = cells - static_cast<int>(cells - (x + out));
+        const int full_begin = cells - static_cast<int>(cells - (x - in)), full_end = static_cast<int>(x + in);
+        const bool touches = out2 > 0, fills = full_begin < full_end;
+        ends[j] = {touches ? begin : 0, touches ? (fills ? full_begin : end) : 0,
+                   touches ? (fills ? full_end : end) : 0, touches ? end : 0};
+    }
+}
+
 }  // namespace
 
 const double* SphereFraction::row(int j, int k) const noexcept
@@ -131,6 +157,8 @@ const double* SphereFraction::row(int j, int k) const noexcept
 
 void SphereFraction::evaluate(const Vec3& centre, double R)
 {
+    centre_ = centre;
+    R_ = R;
     for (int d = 0; d < 3; ++d) {
         first_[d] = static_cast<int>(std::floor(centre[d] - R));
         count_[d] = static_cast<int>(std::ceil(centre[d] + R)) - first_[d];
@@ -159,7 +187,7 @@ void SphereFraction::evaluate(const Vec3& centre, double R)
     corner_.resize(plane_size + mx);
     along_y_.resize(plane_size);
     mixed_.resize(plane_size + 1);  // differences read one beyond the padding
-    fraction_.resize(plane_size * nz);
+    fraction_.resize(plane_size * nz + mx);
     yz_.resize(ny + 1);
     const double g0 = kPi * R * R * R / 6, small = kRoundOffOfVolumes * std::max(1.0, R * R * R);
     for (int k = 0; k <= nz; ++k) {
@@ -169,6 +197,27 @@ void SphereFraction::evaluate(const Vec3& centre, double R)
         differences_of_lines(corner_.data(), mx, plane_size, along_y_.data(), mixed_.data());
         if (k > 0) differences_along_lines(mixed_.data(), plane_size, small, fraction_.data() + (k - 1) * plane_size);
     }
+    find_ends();
+}
+
+void SphereFraction::find_ends()
+{
+    for (int d = 1; d < 3; ++d) {
+        std::vector<double>&near2 = near2_[d - 1], &far2 = far2_[d - 1];
+        near2.resize(count_[d]);
+        far2.resize(count_[d]);
+        for (int i = 0; i < count_[d]; ++i) {
+            const double low = first_[d] + i - centre_[d], high = low + 1;
+            const double nearest = std::max({low, -high, 0.0}), farthest = std::max(-low, high);
+            near2[i] = nearest * nearest;
+            far2[i] = farthest * farthest;
+        }
+    }
+    ends_.resize(static_cast<std::size_t>(count_[1]) * count_[2]);
+    for (int k = 0; k < count_[2]; ++k)
+        ends_of_rows(near2_[0].data(), far2_[0].data(), count_[1], centre_[0] - first_[0], count_[0],
+                     R_ * R_ - near2_[1][k], R_ * R_ - far2_[1][k],
+                     ends_.data() + static_cast<std::size_t>(k) * count_[1]);
 }
 
 }  // namespace lbm

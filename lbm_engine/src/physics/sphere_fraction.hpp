@@ -7,6 +7,11 @@
 
 namespace lbm {
 
+/// The cells of a row that a solid touches, begin to end; those from full_begin to full_end are full. Without full cells both are the end.
+struct RowEnds {
+    int begin = 0, full_begin = 0, full_end = 0, end = 0;
+};
+
 /**
  * Exact solid fractions of the unit cells that a sphere touches.
  *
@@ -30,9 +35,17 @@ public:
     const std::array<int, 3>& first() const noexcept { return first_; }  ///< lowest cell of the bounding box
     const std::array<int, 3>& count() const noexcept { return count_; }  ///< its cells
     const double* row(int j, int k) const noexcept;      ///< fractions of count()[0] cells in row (j, k)
-    std::size_t line() const noexcept { return line_; }  ///< between rows
+    std::size_t line() const noexcept { return line_; }  ///< between rows; a line, at least 8, may be read after a row
+    const RowEnds* ends() const noexcept
+    {
+        return ends_.data();
+    }  ///< of the rows of count()[1] x count()[2], counted from first()[0]
 
 private:
+    void find_ends();
+
+    Vec3 centre_{};
+    double R_ = 0;
     std::array<int, 3> first_{}, count_{};
     std::array<std::vector<double>, 3> plane_;           // planes relative to the centre, clamped to +-R
     std::array<std::vector<double>, 3> g1_;              // G2(|a|, 0)
@@ -40,6 +53,8 @@ private:
     std::size_t line_ = 0;                               // between rows of fractions
     std::vector<double> yz_, corner_, along_y_, mixed_;  // while evaluating
     std::vector<double> fraction_;
+    std::array<std::vector<double>, 2> near2_, far2_;  // of cells along y and z from the centre, squared
+    std::vector<RowEnds> ends_;
 };
 
 }  // namespace lbm
