@@ -7,7 +7,7 @@ import numpy as np
 from .case import Case, Figure, Row, Run
 from .channels import of
 from .engine import reference, yade
-from .plotting import COLOURS, MARKERS
+from .plotting import COLOURS, MARKERS, against
 from .report import table
 
 D, TAU = 8, 0.6
@@ -110,9 +110,9 @@ def skempton_figures(results):
         for r, colour, marker in zip(of(results, filled), COLOURS, MARKERS):
             unit = (r["tau"] - 0.5) * (r["d"] / 2 - 0.5) ** 2
             t = np.geomspace(min(r["times"]), max(r["times"]), 80)
-            right.semilogx(t / unit, [r["porosity"] + (1 - r["porosity"]) * inside(r["d"], r["tau"], x) for x in t], color=colour, lw=1)
-            right.plot(np.array(r["times"]) / unit, r["stored"], marker, color=colour, label=f"d = {r['d']}, tau = {r['tau']:g}, n = {r['porosity']:.2f}")
-        right.set(xlabel="steps / ((tau - 1/2) (R - 1/2)^2)", ylabel="part of the volume that stores")
+            exact = [r["porosity"] + (1 - r["porosity"]) * inside(r["d"], r["tau"], x) for x in t]
+            against(right, (t / unit, exact), (np.array(r["times"]) / unit, r["stored"]), colour, marker, label=f"d = {r['d']}, tau = {r['tau']:g}, n = {r['porosity']:.2f}")
+        right.set(xscale="log", xlabel="steps / ((tau - 1/2) (R - 1/2)^2)", ylabel="part of the volume that stores")
         right.legend()
 
     return [Figure("skempton", "Left: undrained pressure. Right: storage after a step of the pressure; lines: diffusion into the spheres.", draw, (9, 4))]
@@ -240,10 +240,10 @@ def terzaghi_figures(results):
             first = skempton(modulus, 1.0)
             left.semilogx(times, [1 - first + first * series(t, 1.0)[1] for t in times], color=colour, lw=1)
             for r, marker in zip([r for r in chosen if r["modulus"] == modulus], MARKERS):
-                samples = compared(results, r)
-                left.plot([s[0] for s in samples], [s[1] for s in samples], marker, color=colour, mfc="none", label=what(r))
+                tv, settlement, with_films = zip(*(s[:3] for s in compared(results, r)))
+                left.plot(tv, settlement, marker, color=colour, mfc="none", label=what(r))
                 if r["films"]:
-                    left.plot([s[0] for s in samples], [s[2] for s in samples], "--", color=colour, lw=1)
+                    left.plot(tv, with_films, "--", color=colour, lw=1)
         left.set(xlabel="c_v t / H^2", ylabel="settlement / final")
         left.invert_yaxis()
         left.legend(fontsize=7)
@@ -252,8 +252,8 @@ def terzaghi_figures(results):
         samples = [min(compared(results, r), key=lambda s: abs(s[0] - t)) for t in ISOCHRONE_TIMES]
         for s, colour in zip(samples, COLOURS):
             first = skempton(r["modulus"], 1.0)
-            right.plot([first * series(s[0], z)[0] for z in depth], 1 - depth, color=colour, lw=1)
-            right.plot(s[5], np.arange(r["count"] + 1) / r["count"], "o", color=colour, ms=3, label=f"c_v t / H^2 = {s[0]:.2f}")
+            exact, height = [first * series(s[0], z)[0] for z in depth], np.arange(r["count"] + 1) / r["count"]
+            against(right, (exact, 1 - depth), (s[5], height), colour, "o", ms=3, label=f"c_v t / H^2 = {s[0]:.2f}")
         right.set(xlabel="pressure / load", ylabel="z / H")
         right.legend()
 

@@ -22,6 +22,12 @@ plt.rcParams.update({
 })
 
 
+def against(axes, exact, found, colour, marker, **style):
+    """A solution as a thin line, and what was found as markers of its colour; each as (x, y)."""
+    axes.plot(*exact, color=colour, lw=1)
+    axes.plot(*found, marker, color=colour, **style)
+
+
 def save(figure, path):
     """Draws and writes a `Figure` of a case."""
     canvas = plt.figure(figsize=figure.size, constrained_layout=True)

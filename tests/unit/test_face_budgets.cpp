@@ -1,0 +1,139 @@
+#include "close.hpp"
+#include "face_conditions.hpp"
+
+#include <cppunit/extensions/HelperMacros.h>
+
+#include <limits>
+
+namespace {
+
+using namespace lbm;
+using namespace lbm::test;
+
+constexpr double kRoundOff = 1e-13;
+
+/// What the scheme solves exactly, after the transient has decayed.
+constexpr double kExact = 1e-10;
+
+/// Mass and momentum that pass through the faces account for what the fluid holds.
+class FaceBudgets : public CppUnit::TestFixture {
+    CPPUNIT_TEST_SUITE(FaceBudgets);
+    CPPUNIT_TEST(a_duct_lets_out_what_comes_in);
+    CPPUNIT_TEST(mass_changes_by_what_passes_the_faces);
+    CPPUNIT_TEST(momentum_changes_by_drive_faces_and_loads);
+    CPPUNIT_TEST(couette_walls_feel_the_exact_shear);
+    CPPUNIT_TEST(pressure_acts_on_the_normal_of_every_wall_alone);
+    CPPUNIT_TEST_SUITE_END();
+
+    void a_duct_lets_out_what_comes_in()
+    {
+        FluidConfig c = test::lattice_config({12, 6, 5}, 0.8);
+        test::walls(c, 1);
+        test::walls(c, 2);
+        pair(c, 0, with_velocity({0.01, 0.002, 0}), at_pressure(1e-3));
+        Fluid fluid(c);
+        run(fluid, 6000);
+        LBM_ASSERT_CLOSE(-0.01 * 30, fluid.boundary_flux(kXMin), kRoundOff, 0.3);
+        LBM_ASSERT_CLOSE(0.01 * 30, fluid.boundary_flux(kXMax), kExact, 0.3);
+        for (const Face face : {kYMin, kYMax, kZMin, kZMax})
+            LBM_ASSERT_CLOSE(0.0, fluid.boundary_flux(face), kRoundOff, 0.3);
+    }
+
+    static Vec3 on_faces(const Fluid& fluid)
+    {
+        Vec3 sum{};
+        for (int face = 0; face < 6; ++face) sum += fluid.boundary_force(static_cast<Face>(face));
+        return sum;
+    }
+
+    void mass_changes_by_what_passes_the_faces()
+    {
+        for (const Lattice lattice : {Lattice::d3q19, Lattice::d3q27}) {
+            FluidConfig c = all_kinds_of_faces();
+            c.lattice = lattice;
+            Fluid fluid(c);
+            fluid.place_solids({moving_sphere()});
+            for (int t = 0; t < 30; ++t) {
+                const double before = fluid.total_mass();
+                fluid.step();
+                double out = 0;
+                for (const Face face : {kXMin, kXMax, kYMin, kYMax}) out += fluid.boundary_flux(face);
+                LBM_ASSERT_CLOSE(before - out, fluid.total_mass(), kRoundOff, before);
+            }
+            LBM_ASSERT_CLOSE(-fluid.boundary_flux(kZMin), fluid.boundary_flux(kZMax), kRoundOff, 10.0);
+            CPPUNIT_ASSERT(std::abs(fluid.boundary_flux(kXMax)) > 0.1);
+        }
+    }
+
+    void momentum_changes_by_drive_faces_and_loads()
+    {
+        for (const Lattice lattice : {Lattice::d3q19, Lattice::d3q27})
+            for (const double mass : {std::numeric_limits<double>::infinity(), 60.0})
+                for (int closed = 0; closed < 2; ++closed) {
+                    FluidConfig c = all_kinds_of_faces();
+                    c.lattice = lattice;
+                    c.lubrication =
+                        false;  // films load solids and walls in the same step, the lattice walls a step later
+                    if (closed) {
+                        pair(c, 0, of(FaceType::free_slip), of(FaceType::no_slip));
+                        test::walls(c, 2);
+                    }
+                    const double volume = 13 * 11 * 12;
+                    Fluid fluid(c);
+                    Solid s = moving_sphere();
+                    s.mass = s.inertia = mass;
+                    for (int t = 0; t < 40; ++t) {
+                        fluid.place_solids({s});
+                        const Vec3 before = fluid.total_momentum(), faces = on_faces(fluid);
+                        fluid.step();
+                        const Vec3 load = fluid.loads()[0].force;
+                        const Vec3 change = fluid.total_momentum() - before;
+                        for (int d = 0; d < 3; ++d)
+                            LBM_ASSERT_CLOSE(volume * c.acceleration[d] - faces[d] - load[d], change[d], kRoundOff,
+                                             10.0);
+                        s.velocity += (1 / mass) * load;
+                        s.position += s.velocity;
+                    }
+                }
+    }
+
+    void couette_walls_feel_the_exact_shear()
+    {
+        FluidConfig c = test::lattice_config({3, 4, 8}, 0.9);
+        test::walls(c, 2);
+        c.faces[kZMax].velocity = {0.04, 0.01, 0};
+        Fluid fluid(c);
+        run(fluid, 6000);
+        for (int d = 0; d < 2; ++d) {
+            const double shear = c.viscosity * c.faces[kZMax].velocity[d] / 8 * 12;
+            LBM_ASSERT_CLOSE(shear, fluid.boundary_force(kZMin)[d], kExact, shear);
+            LBM_ASSERT_CLOSE(-shear, fluid.boundary_force(kZMax)[d], kExact, shear);
+        }
+    }
+
+    void pressure_acts_on_the_normal_of_every_wall_alone()
+    {
+        // A closed box but for a pressure face: fluid at rest under that pressure, and nothing happens.
+        for (const Lattice lattice : {Lattice::d3q19, Lattice::d3q27}) {
+            FluidConfig c = test::lattice_config({4, 5, 6}, 0.8);
+            c.lattice = lattice;
+            c.gravity = {0, 0, -1e-3};
+            for (int axis = 0; axis < 3; ++axis) test::walls(c, axis);
+            c.faces[kYMin].type = FaceType::free_slip;
+            c.faces[kZMax] = at_pressure(0.01);
+            Fluid fluid(c);
+            run(fluid, 11);
+            const Vec3 area{30, 24, 20};
+            for (int face = 0; face < 6; ++face)
+                for (int d = 0; d < 3; ++d) {
+                    const double expected = d != face / 2 ? 0 : (face % 2 ? 1 : -1) * 0.01 * area[d];
+                    LBM_ASSERT_CLOSE(expected, fluid.boundary_force(static_cast<Face>(face))[d], kRoundOff, 0.3);
+                }
+            LBM_ASSERT_CLOSE(0.01, fluid.pressure_at({1, 1, 1}), kRoundOff, 0.01);
+        }
+    }
+};
+
+CPPUNIT_TEST_SUITE_REGISTRATION(FaceBudgets);
+
+}  // namespace
