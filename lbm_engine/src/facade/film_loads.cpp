@@ -13,7 +13,7 @@ const std::vector<SolidLoad>& Fluid::Implementation::film_loads(const std::vecto
     loads_of_films.assign(now.size(), SolidLoad{});
     if (!config.lubrication || config.scheme != Scheme::exact) return loads_of_films;
     validate(config, now);
-    const ThreadCount threads(config.threads);
+    const ThreadCount threads(config);
     Stopwatch watch;
     const Units own(config.dx, step, config.density);
     std::array<const Vec3*, 6> walls{};

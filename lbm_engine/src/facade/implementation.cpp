@@ -74,7 +74,7 @@ AnyPopulations make_populations_of(const FluidConfig& c)
 
 AnyPopulations make_populations(const FluidConfig& c)
 {
-    const ThreadCount threads(c.threads);
+    const ThreadCount threads(c);
     return c.lattice == Lattice::d3q27 ? make_populations_of<D3Q27>(c) : make_populations_of<D3Q19>(c);
 }
 
@@ -128,7 +128,7 @@ void Fluid::Implementation::throw_out_of_memory(const char* asked) const
 void Fluid::Implementation::start_at(double drho, const Vec3& u)
 {
     if (drho == 0 && u == Vec3{}) return;
-    const ThreadCount threads(config.threads);
+    const ThreadCount threads(config);
     std::visit(
         [&]<class L, class T>(Populations<L, T>& f) {
             const Layout<L>& layout = f.layout;
@@ -150,7 +150,7 @@ void Fluid::Implementation::start_at(double drho, const Vec3& u)
 
 void Fluid::Implementation::step()
 {
-    const ThreadCount threads(config.threads);
+    const ThreadCount threads(config);
     watch_surfaces();
     Stopwatch watch_time;
     std::visit(
@@ -182,7 +182,7 @@ void Fluid::Implementation::change_tau(double tau)
         throw ConfigError(message("tau = ", tau, ": the present flow would have the Mach number ", mach,
                                   ", above the limit ", config.max_mach,
                                   "; use tau <= ", 0.5 + (tau - 0.5) * config.max_mach / mach));
-    const ThreadCount threads(config.threads);
+    const ThreadCount threads(config);
     const auto momenta_inside = [&] {
         std::visit([&](const auto& f) { sum_inside(f, collision, config.inertia, map, &CellState::next_momentum); },
                    populations);

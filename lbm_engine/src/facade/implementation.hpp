@@ -10,6 +10,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <new>
 #include <unordered_map>
 #include <variant>
@@ -18,12 +19,18 @@ namespace lbm {
 
 inline constexpr double kSpeedOfSound = 0.57735026918962576451;  // 1 / sqrt(3), lattice units
 
-/// Runs the loops below with the number of threads that the configuration asks for.
+/// With fewer cells for each of them threads wait for each other longer than they compute (two in 16^3 cells were 15 % slower than one), on a busy machine a
+/// hundred times as long.
+inline constexpr double kFewestCellsOfThread = 4096;
+
+/// Runs the loops below with the number of threads that the configuration asks for, as far as they have enough to do.
 class ThreadCount {
 public:
-    explicit ThreadCount(int threads) : before_(omp_get_max_threads())
+    explicit ThreadCount(const FluidConfig& c) : before_(omp_get_max_threads())
     {
-        if (threads > 0) omp_set_num_threads(threads);
+        const double useful = double(c.cells[0]) * c.cells[1] * c.cells[2] / kFewestCellsOfThread;
+        const int asked = c.threads > 0 ? c.threads : before_;
+        omp_set_num_threads(useful < asked ? std::max(1, static_cast<int>(useful)) : asked);
     }
     ~ThreadCount() { omp_set_num_threads(before_); }
     ThreadCount(const ThreadCount&) = delete;
@@ -112,7 +119,7 @@ struct Fluid::Implementation {
     template <class Body>
     void for_cells(Body body) const
     {
-        const ThreadCount threads(config.threads);
+        const ThreadCount threads(config);
         std::visit([&](const auto& f) { lbm::for_cells(f, collision, config.inertia, map, body); }, populations);
     }
 

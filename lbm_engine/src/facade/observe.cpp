@@ -96,7 +96,7 @@ Vec3 Fluid::total_angular_momentum() const
 StressParts Fluid::stress() const
 {
     const auto& fluid = *implementation_;
-    const ThreadCount threads(config().threads);
+    const ThreadCount threads(config());
     const Mat3 flux = std::visit([](const auto& f) { return momentum_flux(f); }, fluid.populations);
     StressParts stress;
     for (int a = 0; a < 3; ++a) stress.fluid[a] = (-fluid.units.pressure / fluid.cell_count()) * flux[a];

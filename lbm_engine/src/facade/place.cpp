@@ -74,7 +74,7 @@ bool Fluid::Implementation::is_same(const Solid& now, const Solid& before) const
 
 void Fluid::Implementation::place(const std::vector<Solid>& now)
 {
-    const ThreadCount threads(config.threads);
+    const ThreadCount threads(config);
     Stopwatch watch;
     const auto count = static_cast<std::ptrdiff_t>(now.size());
     bool same_ids = now.size() == solids.size();
