@@ -58,14 +58,15 @@ std::vector<int> whole_numbers(const std::string& option, const std::string& lis
 {
     const std::vector<double> values = numbers(option, list, low, high);
     for (const double value : values)
-        if (value != std::floor(value)) throw ConfigError(option + " " + list + ": must be whole numbers");
+        if (value != std::floor(value))
+            throw ConfigError(std::string(option).append(" ").append(list).append(": must be whole numbers"));
     return {values.begin(), values.end()};
 }
 
 std::vector<std::string> words(const std::string& option, const std::string& list,
                                const std::vector<std::string>& allowed)
 {
-    const std::vector<std::string> parts = split(option, list);
+    std::vector<std::string> parts = split(option, list);
     for (const std::string& part : parts)
         if (std::find(allowed.begin(), allowed.end(), part) == allowed.end())
             throw ConfigError(std::string(option).append(" ").append(part).append(": unknown"));

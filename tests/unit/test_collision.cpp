@@ -94,7 +94,7 @@ class Collision : public CppUnit::TestFixture {
             collide_saturated<D3Q19, true>(f, p, cut_cell<double>(p, {0, 0, {0, 0, 0}}), out);
             collide_fluid<D3Q19, true>(g, p);
             for (int i = 0; i < D3Q19::Q; ++i) LBM_ASSERT_CLOSE(g[i], f[i], kRoundOff, 1.0);
-            for (int d = 0; d < 3; ++d) CPPUNIT_ASSERT_EQUAL(0.0, out.force[d]);
+            for (const double force : out.force) CPPUNIT_ASSERT_EQUAL(0.0, force);
         }
     }
 
@@ -130,7 +130,7 @@ class Collision : public CppUnit::TestFixture {
         }
         Exchange<double> out;
         collide_saturated<D3Q19, false>(f, p, cut_cell<double>(p, {0.4, 1.2, {u[0], u[1], u[2]}}), out);
-        for (int d = 0; d < 3; ++d) LBM_ASSERT_CLOSE(0.0, out.force[d], kRoundOff, 1.0);
+        for (const double force : out.force) LBM_ASSERT_CLOSE(0.0, force, kRoundOff, 1.0);
     }
 
     void lanes_give_the_bits_of_single_cells()

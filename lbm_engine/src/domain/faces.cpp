@@ -187,7 +187,7 @@ template <class T>
 void Faces::see_dynamic_pressure(T* f, bool odd)
 {
     for (Mouth& mouth : mouths_) {
-        const auto [nx, ny, nz] = mouth.extent;
+        const int nx = mouth.extent[0], ny = mouth.extent[1], nz = mouth.extent[2];
 #pragma omp parallel for collapse(2) schedule(static) if (static_cast <Slot>(nx) * ny * nz > 4096)
         for (int z = 0; z < nz; ++z)
             for (int y = 0; y < ny; ++y)
@@ -304,6 +304,7 @@ void Faces::share(const Links& links, const Vec3& place, double out, double in, 
     }
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define LBM_FACES_OF(T)                                                                                                \
     template void Faces::stream_row(T*, int, int, bool) const;                                                         \
     template void Faces::stream(T*, bool);                                                                             \
@@ -313,6 +314,7 @@ void Faces::share(const Links& links, const Vec3& place, double out, double in, 
 LBM_FACES_OF(double)
 LBM_FACES_OF(float)
 #undef LBM_FACES_OF
+// NOLINTEND(bugprone-macro-parentheses)
 template Faces::Faces(const Layout<D3Q19>&, const std::array<FaceCondition, 6>&, bool);
 template Faces::Faces(const Layout<D3Q27>&, const std::array<FaceCondition, 6>&, bool);
 

@@ -116,11 +116,10 @@ struct Fluid::Implementation {
     LatticeSolid in_lattice_units(const Solid& solid) const;
     Solid in_mid_step(const Solid& solid, const Motion& last) const;
 
-    template <class Body>
-    void for_cells(Body body) const
+    void for_cells(const SeeCell& see) const
     {
         const ThreadCount threads(config);
-        std::visit([&](const auto& f) { lbm::for_cells(f, collision, config.inertia, map, body); }, populations);
+        std::visit([&](const auto& f) { lbm::for_cells(f, collision, config.inertia, map, see); }, populations);
     }
 
     /// Sum over all cells of value(CellState), row by row, so that it does not depend on the number of threads.

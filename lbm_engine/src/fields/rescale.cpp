@@ -1,6 +1,6 @@
 #include "fields/rescale.hpp"
 
-#include "fields/sweep.hpp"
+#include "fields/cell_state.hpp"
 
 namespace lbm {
 namespace {

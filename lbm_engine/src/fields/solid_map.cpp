@@ -19,13 +19,13 @@ namespace {
 
 /// Goes along an axis from cell i0 on, not wrapped.
 struct Walk {
-    int n, size;   ///< cells of the lattice, and in a unit
-    int cell;      ///< wrapped
-    int image;     ///< not wrapped it is cell + image n
-    int rest;      ///< cells that are left in the unit after this one
-    int unit = 0;  ///< of those passed, from 0 on
+    int n, size;    ///< cells of the lattice, and in a unit
+    int cell;       ///< wrapped
+    int image = 0;  ///< not wrapped it is cell + image n
+    int rest;       ///< cells that are left in the unit after this one
+    int unit = 0;   ///< of those passed, from 0 on
 
-    Walk(int i0, int n_, int size_) : n(n_), size(size_), cell(i0), image(0)
+    Walk(int i0, int n_, int size_) : n(n_), size(size_), cell(i0)
     {
         // Solids reach into the next image, rarely further.
         if (cell < -n || cell >= 2 * n) {

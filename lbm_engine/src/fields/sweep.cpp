@@ -1,5 +1,7 @@
 #include "fields/sweep.hpp"
 
+#include "fields/first_exception.hpp"
+
 #include <algorithm>
 
 namespace lbm {

@@ -106,7 +106,7 @@ inline constexpr double kLeastWeight = L::w(L::Q - 1);
 template <class L>
 constexpr int multiple_of_least(double sum_of_weights)
 {
-    return static_cast<int>(sum_of_weights / kLeastWeight<L> + 0.5);
+    return static_cast<int>(sum_of_weights / kLeastWeight<L> + 0.5);  // NOLINT(bugprone-incorrect-roundings): constexpr
 }
 
 /**

@@ -277,6 +277,7 @@ void SolidFraction::leave_out(const SolidGeometry& solid, const std::vector<Soli
 {
     make_own();
     std::vector<SolidGeometry> near;
+    near.reserve(others.size());
     for (const SolidGeometry& other : others) near.push_back(nearest_image(other, solid.centre));
     std::vector<Interval> hidden;
     for (int k = 0; k < count_[2]; ++k)
