@@ -1,7 +1,7 @@
 #include "close.hpp"
-#include "fields/pack.hpp"
 #include "lattice/d3q19.hpp"
 #include "lattice/d3q27.hpp"
+#include "lattice/pack.hpp"
 #include "lattice/vec3.hpp"
 #include "physics/collision.hpp"
 

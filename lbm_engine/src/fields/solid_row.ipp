@@ -1,7 +1,7 @@
 // What solids say to a row and hear from it, compiled once per instruction set: define LBM_ISA (a namespace) before including.
 
-#include "fields/pack.hpp"
 #include "fields/solid_row.hpp"
+#include "lattice/pack.hpp"
 
 #include <algorithm>
 

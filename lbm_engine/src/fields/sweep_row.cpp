@@ -1,6 +1,7 @@
 #include "fields/sweep_row.hpp"
 
 #include "fields/solid_row.hpp"
+#include "lattice/isa.hpp"
 
 namespace lbm {
 
@@ -19,24 +20,13 @@ LBM_DECLARE(avx512)
 #endif
 #undef LBM_DECLARE
 
-#ifdef LBM_X86_KERNELS
-namespace {
-
-bool runs_avx512()
-{
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512vl");
-}
-
-}  // namespace
-#endif
-
 template <class L, class T>
 SweepRows<L, T> sweep_rows()
 {
 #ifdef LBM_X86_KERNELS
-    if (runs_avx512()) return {avx512::sweep_row<L, true, T>, avx512::sweep_row<L, false, T>};
-    if (__builtin_cpu_supports("avx2")) return {avx2::sweep_row<L, true, T>, avx2::sweep_row<L, false, T>};
+    const Isa isa = widest_isa();
+    if (isa == Isa::avx512) return {avx512::sweep_row<L, true, T>, avx512::sweep_row<L, false, T>};
+    if (isa == Isa::avx2) return {avx2::sweep_row<L, true, T>, avx2::sweep_row<L, false, T>};
 #endif
     return {portable::sweep_row<L, true, T>, portable::sweep_row<L, false, T>};
 }
@@ -44,8 +34,9 @@ SweepRows<L, T> sweep_rows()
 SolidRowKernels solid_row_kernels()
 {
 #ifdef LBM_X86_KERNELS
-    if (runs_avx512()) return {avx512::saturate, avx512::collect};
-    if (__builtin_cpu_supports("avx2")) return {avx2::saturate, avx2::collect};
+    const Isa isa = widest_isa();
+    if (isa == Isa::avx512) return {avx512::saturate, avx512::collect};
+    if (isa == Isa::avx2) return {avx2::saturate, avx2::collect};
 #endif
     return {portable::saturate, portable::collect};
 }

@@ -1,8 +1,8 @@
 // The sweep over a row, compiled once per instruction set: define LBM_ISA (a namespace) and LBM_LANES before including.
 // Everything is inlined into functions of that namespace, so that no code for one instruction set leaks into another.
 
-#include "fields/pack.hpp"
 #include "fields/sweep_row.hpp"
+#include "lattice/pack.hpp"
 #include "physics/comparison_schemes.hpp"
 
 #include <algorithm>

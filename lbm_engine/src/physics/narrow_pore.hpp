@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lattice/vec3.hpp"
+#include "physics/sphere_kernels.hpp"
 
 #include <array>
 #include <cstdint>
@@ -45,14 +46,8 @@ class CutCells {
 public:
     void clear() { rows_.clear(); }
 
-    /// The cells of a row that are kept: some before and some after those that are full.
-    struct Row {
-        const double* fractions;  ///< of all; up to kReadAhead more are read
-        int before, full, after;
-        Vec3 first;  ///< centre of the first one, as seen from that of the sphere
-    };
-    /// To be called plane by plane.
-    void add(const Row& row) { rows_.push_back(row); }
+    /// To be called plane by plane; places are as seen from the centre of the sphere.
+    void add(const CutRow& row) { rows_.push_back(row); }
 
     /// Copies the fractions of all cells added, in this order.
     void gather();
@@ -67,12 +62,12 @@ public:
     const double* fractions() const noexcept { return fraction_.data(); }
 
 private:
-    std::vector<Row> rows_;
+    std::vector<CutRow> rows_;
     std::vector<std::size_t> planes_;  // first cell of each plane
     double lowest_ = 0;                // plane
     std::size_t count_ = 0;
-    std::array<std::vector<double>, 3> place_;  // from the centre of the sphere
-    std::vector<double> fraction_, thickening_;
+    std::array<PackedNumbers, 3> place_;  // from the centre of the sphere
+    PackedNumbers fraction_, thickening_;
 };
 
 }  // namespace lbm

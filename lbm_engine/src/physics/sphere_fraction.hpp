@@ -1,16 +1,12 @@
 #pragma once
 
 #include "lbm/solid.hpp"
+#include "physics/sphere_kernels.hpp"
 
 #include <array>
 #include <vector>
 
 namespace lbm {
-
-/// The cells of a row that a solid touches, begin to end; those from full_begin to full_end are full. Without full cells both are the end.
-struct RowEnds {
-    int begin = 0, full_begin = 0, full_end = 0, end = 0;
-};
 
 /**
  * Exact solid fractions of the unit cells that a sphere touches.
@@ -44,16 +40,20 @@ public:
 private:
     void find_ends();
 
+    SpherePlanes planes(int axis) const noexcept
+    {
+        return {plane_[axis].data(), cap_[axis].data(), moment_[axis].data()};
+    }
+
     Vec3 centre_{};
     double R_ = 0;
     std::array<int, 3> first_{}, count_{};
-    std::array<std::vector<double>, 3> plane_;           // planes relative to the centre, clamped to +-R
-    std::array<std::vector<double>, 3> g1_;              // G2(|a|, 0)
-    std::array<std::vector<double>, 3> g2_;              // G2 of planes (x,y), (y,z), (x,z)
+    std::array<PackedNumbers, 3> plane_, cap_, moment_;  // SpherePlanes
+    std::array<PackedNumbers, 3> pairs_;                 // G2 of planes (x,y), (y,z), (x,z)
     std::size_t line_ = 0;                               // between rows of fractions
-    std::vector<double> yz_, corner_, along_y_, mixed_;  // while evaluating
-    std::vector<double> fraction_;
-    std::array<std::vector<double>, 2> near2_, far2_;  // of cells along y and z from the centre, squared
+    PackedNumbers rest_, along_y_, mixed_;               // while evaluating
+    PackedNumbers fraction_;
+    std::array<PackedNumbers, 2> near2_, far2_;  // of cells along y and z from the centre, squared
     std::vector<RowEnds> ends_;
 };
 

@@ -1,0 +1,2 @@
+#define LBM_ISA portable
+#include "physics/sphere_kernels.ipp"
