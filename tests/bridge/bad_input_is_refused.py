@@ -1,4 +1,5 @@
 import math
+import pathlib
 import tempfile
 import warnings
 
@@ -308,7 +309,9 @@ def queries_need_a_fluid():
     check_raises(ValueError, "body 5 was not in the fluid", lambda: fluid.fluidForce(5))
     check_raises(ValueError, "getBoundaryFlux(6): must be 0 to 5", lambda: fluid.getBoundaryFlux(6))
     check_raises(ValueError, "", lambda: fluid.getVelocity((1, 1, 1)))
-    check_raises(RuntimeError, "", lambda: fluid.saveVtk("/no/such/folder/file.vti"))
+    for path in ("/no/such/folder/file.vti", pathlib.Path("/no/such/folder/file.vti")):
+        check_raises(RuntimeError, "cannot write /no/such/folder/file.vti", lambda: fluid.saveVtk(path))
+    check_raises(TypeError, "not int", lambda: fluid.saveVtk(5))
 
 
 def stiff_contacts_are_warned_about():

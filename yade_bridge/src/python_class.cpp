@@ -71,6 +71,13 @@ bp::tuple cells_tuple(const LbmEngine& engine)
     return bp::make_tuple(cells[0], cells[1], cells[2]);
 }
 
+/// To a path as a string or from pathlib.
+void save_vtk(const LbmEngine& engine, const bp::object& path)
+{
+    const bp::object text = bp::import("os").attr("fspath")(path);
+    engine.save_vtk(bp::extract<std::string>(text));
+}
+
 bp::dict stress(const LbmEngine& engine)
 {
     const lbm::StressParts parts = engine.stress();
@@ -179,7 +186,7 @@ void define_queries(PythonClass& python_class)
             "'contacts' (utils.getStress over the volume of the box), and their 'total'. In a steady flow the total is "
             "the stress on the faces.")
         .def("kineticEnergy", &LbmEngine::kinetic_energy, "Kinetic energy of the fluid outside the solids [J].")
-        .def("saveVtk", &LbmEngine::save_vtk,
+        .def("saveVtk", &save_vtk,
              "Writes velocity, pressure and solid fraction as VTK image data (.vti) that ParaView opens.")
         .add_property("velocity", &velocity, "Velocities, a NumPy array of shape (nz, ny, nx, 3) [m/s]; a copy.")
         .add_property(
