@@ -3,10 +3,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
-#include <sstream>
+#include <tuple>
 
 namespace lbm {
 namespace {
@@ -229,6 +231,21 @@ void require_bodies_move_as_one(const std::vector<CaseSolid>& solids)
         }
 }
 
+/// Two solids in the same place are one that was listed twice; as one body they count once.
+void require_different(const std::vector<CaseSolid>& solids)
+{
+    std::map<std::tuple<Shape, Vec3, double, Vec3, std::array<double, 4>, int>, std::size_t> seen;
+    for (std::size_t s = 0; s < solids.size(); ++s) {
+        const Solid& solid = solids[s].solid;
+        const auto [place, is_new] = seen.emplace(
+            std::tuple(solid.shape, solid.position, solid.radius, solid.half_extents, solid.orientation, solid.axis),
+            s);
+        if (!is_new && (solid.body < 0 || solid.body != solids[place->second].solid.body))
+            throw ConfigError("solids[" + std::to_string(s) + "]: has the place and size of solids[" +
+                              std::to_string(place->second) + "]; leave one of them, or make them one body");
+    }
+}
+
 }  // namespace
 
 Case read_case(const Json& json)
@@ -278,6 +295,7 @@ Case read_case(const Json& json)
             ++id;
         }
         require_bodies_move_as_one(result.solids);
+        require_different(result.solids);
     }
     if (root.has("stop")) {
         Section stop = root.section("stop");

@@ -268,6 +268,7 @@ class Messages(unittest.TestCase):
         sphere = dict(array()["solids"][0], free=True, density=1.0, body=1)
         self.refused("free or moving otherwise than solids[0]", array(solids=[sphere, dict(array()["solids"][0], body=1)]))
         self.refused("solids[1].velocity: with the velocities of the first part", array(solids=[sphere, dict(sphere, velocity=[1, 0, 0])]))
+        self.refused("solids[1]: has the place and size of solids[0]; leave one", array(solids=array()["solids"] * 2))
         self.refused("a pipe cannot be free", array(solids=[dict(sphere, shape="pipe")]))
         self.refused("boundaries.x.max: missing", array(boundaries={"x": {"min": {"type": "noSlip"}}}))
         self.refused('boundaries.x: must be "periodic" or {"min"', array(boundaries={"x": "noSlip"}))
@@ -280,7 +281,7 @@ class Messages(unittest.TestCase):
         text = json.dumps(array())
         self.refused("tau: stands twice", text.replace('"tau":', '"tau": 2.0, "tau":'))
         self.refused("domain.dx: stands twice", text.replace('"dx":', '"dx": 1.0, "dx":'))
-        two = json.dumps(array(solids=array()["solids"] * 2))
+        two = json.dumps(array(solids=array()["solids"] + [dict(array()["solids"][0], center=[0, 0, 0])]))
         before, after = two.rsplit('"radius":', 1)
         self.refused("solids[1].radius: stands twice", before + '"radius": 1.0, "radius":' + after)
 
