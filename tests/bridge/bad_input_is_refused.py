@@ -227,6 +227,14 @@ def bodies_outside_the_box_are_pointed_out():
     check(text not in str(fluid.plan()), "warning without reason")
 
 
+def densities_in_other_units_are_pointed_out():
+    O.materials.append(FrictMat(density=2.5))  # g/cm3
+    fluid = one_sphere(fixed=False)
+    check("Body 0 has 0.0025 times the density of the fluid (2.5 kg/m3)" in str(fluid.plan()), "no warning: %s" % fluid.plan())
+    O.bodies[0].state.blockedDOFs = "xyzXYZ"
+    check("times the density" not in str(fluid.plan()), "warning for a fixed body")
+
+
 def too_fast_for_the_lattice_is_refused_before_the_run():
     fluid = one_sphere(tau=0.6)
     O.bodies[0].state.vel = (100, 0, 0)
@@ -385,6 +393,7 @@ prove(
     a_time_step_of_very_many_fluid_steps_is_refused,
     more_threads_than_processors_are_not_used,
     bodies_outside_the_box_are_pointed_out,
+    densities_in_other_units_are_pointed_out,
     too_fast_for_the_lattice_is_refused_before_the_run,
     too_fast_for_the_lattice_stops_the_run,
     a_state_that_cannot_be_kept_does_not_hide_the_reason,

@@ -44,6 +44,32 @@ bool may_reach_into(const Settings& s, const lbm::Solid& solid)
     return true;
 }
 
+/// Of free bodies; lighter ones follow the fluid unstably (docs/physics.md, "Loads").
+constexpr double kLightest = 0.1;
+
+/// Of a free body; of a member of a clump, that of the clump over its own volume, which is more.
+double density_ratio(const Settings& s, const lbm::Solid& solid)
+{
+    const auto& h = solid.half_extents;
+    const double volume =
+        solid.shape == lbm::Shape::box ? 8 * h[0] * h[1] * h[2] : 4 * std::acos(-1.0) / 3 * std::pow(solid.radius, 3);
+    return solid.mass / (volume * s.density);
+}
+
+void warn_about_light_bodies(const Settings& s, const std::vector<lbm::Solid>& solids,
+                             std::vector<std::string>& warnings)
+{
+    const auto lightest = std::min_element(solids.begin(), solids.end(), [&](const lbm::Solid& a, const lbm::Solid& b) {
+        return density_ratio(s, a) < density_ratio(s, b);
+    });
+    if (lightest == solids.end() || density_ratio(s, *lightest) >= kLightest) return;
+    const double ratio = density_ratio(s, *lightest);
+    warnings.push_back("Body " + std::to_string(lightest->id) + " has " + text(ratio) +
+                       " times the density of the fluid (" + text(ratio * s.density) +
+                       " kg/m3): free bodies are not stable below " + text(kLightest) +
+                       " times; is the density of its material in kg/m3?");
+}
+
 /// Mass that answers to a force on the body; infinite for one that is blocked.
 double inverse_mass(const bp::object& body)
 {
@@ -124,6 +150,7 @@ std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings
     if (std::none_of(solids.begin(), solids.end(), [&](const lbm::Solid& solid) { return may_reach_into(s, solid); }))
         warnings.push_back("No body is in the fluid's box, " + text(s.lower) + " to " + text(s.upper) +
                            " m: have they the same origin, and are all lengths in metres?");
+    warn_about_light_bodies(s, solids, warnings);
     bool behind_fluid = false;
     for (const auto& other : scene.engines) {
         if (!other) continue;
