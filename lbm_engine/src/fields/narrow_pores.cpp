@@ -51,9 +51,10 @@ void NarrowPores::find(std::size_t solid, const std::vector<LatticeSolid>& solid
     };
     add_mirrored(centre, R);
     neighbours_.for_near(static_cast<std::int32_t>(solid), [&](std::int32_t other, const Vec3& shift) {
+        const Vec3 image = centres_[other] + shift, apart = image - centre;
+        if (!any_mirror_ && dot(apart, apart) >= farthest * farthest) return;
         const LatticeSolid& two = solids[other];
         if (two.geometry.shape != Shape::sphere) return;
-        const Vec3 image = two.geometry.centre + shift;
         if (one.body >= 0 && one.body == two.body && is_nearest(image, centre)) return;
         add(image, two.geometry.radius);
         add_mirrored(image, two.geometry.radius);

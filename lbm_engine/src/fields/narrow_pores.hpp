@@ -4,6 +4,7 @@
 #include "fields/neighbours.hpp"
 #include "physics/narrow_pore.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -25,6 +26,7 @@ public:
         : n_(cells)
         , periodic_(periodic)
         , mirrors_(mirrors)
+        , any_mirror_(std::find(mirrors.begin(), mirrors.end(), true) != mirrors.end())
         , neighbours_(cells, periodic)
     {
     }
@@ -41,6 +43,7 @@ private:
     std::array<int, 3> n_;
     std::array<bool, 3> periodic_;
     std::array<bool, 6> mirrors_;
+    bool any_mirror_;
     Neighbours neighbours_;
     std::vector<Vec3> centres_;
     double largest_ = 0;  // radius; 0: no spheres

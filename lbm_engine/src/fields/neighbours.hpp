@@ -55,21 +55,27 @@ void Neighbours::for_near(std::int32_t point, Body body) const
             last[d] = std::min(last[d], bins_[d] - 1);
         }
     }
-    for (at[2] = first[2]; at[2] <= last[2]; ++at[2])
-        for (at[1] = first[1]; at[1] <= last[1]; ++at[1])
+    Vec3 shift{};
+    int bin_at[3], turns[3];
+    const auto go_to = [&](int d) {
+        turns[d] = at[d] >= 0 ? at[d] / bins_[d] : -((bins_[d] - 1 - at[d]) / bins_[d]);
+        shift[d] = static_cast<double>(turns[d]) * n_[d];
+        bin_at[d] = at[d] - turns[d] * bins_[d];
+    };
+    for (at[2] = first[2]; at[2] <= last[2]; ++at[2]) {
+        go_to(2);
+        for (at[1] = first[1]; at[1] <= last[1]; ++at[1]) {
+            go_to(1);
             for (at[0] = first[0]; at[0] <= last[0]; ++at[0]) {
-                Vec3 shift{};
-                std::size_t other = 0;
-                bool turned = false;
-                for (int d = 2; d >= 0; --d) {
-                    const int turns = static_cast<int>(std::floor(static_cast<double>(at[d]) / bins_[d]));
-                    turned = turned || turns != 0;
-                    shift[d] = static_cast<double>(turns) * n_[d];
-                    other = other * bins_[d] + (at[d] - turns * bins_[d]);
-                }
+                go_to(0);
+                const bool turned = turns[0] != 0 || turns[1] != 0 || turns[2] != 0;
+                const std::size_t other =
+                    (static_cast<std::size_t>(bin_at[2]) * bins_[1] + bin_at[1]) * bins_[0] + bin_at[0];
                 for (std::int32_t i = begin_[other]; i < begin_[other + 1]; ++i)
                     if (in_bin_[i] != point || turned) body(in_bin_[i], shift);
             }
+        }
+    }
 }
 
 }  // namespace lbm

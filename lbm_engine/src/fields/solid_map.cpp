@@ -76,6 +76,15 @@ Piece cut(Piece& span)
     return first;
 }
 
+/// Asks for memory that will be read or written soon: what solids have of their own lies scattered, far from the caches.
+template <class T>
+void prefetch(const std::vector<T>& list)
+{
+    const char* const begin = reinterpret_cast<const char*>(list.data());
+    const char* const end = begin + list.size() * sizeof(T);
+    for (const char* line = begin; line < end; line += kCacheLine) __builtin_prefetch(line);
+}
+
 }  // namespace
 
 RowUnits::RowUnits(int ny_, int nz_) : ny(ny_), nz(nz_)
@@ -215,15 +224,6 @@ double SolidMap::k(const SolidGeometry& geometry) const
     return weighting_.k(geometry.shape == Shape::sphere ? geometry.radius : std::numeric_limits<double>::infinity());
 }
 
-/// Memory that will be written soon is asked for: a solid's lies far from the caches, and stores would wait for it.
-template <class T>
-void prefetch_to_write(const std::vector<T>& list)
-{
-    const char* const begin = reinterpret_cast<const char*>(list.data());
-    const char* const end = begin + list.size() * sizeof(T);
-    for (const char* line = begin; line < end; line += kCacheLine) __builtin_prefetch(line, 1);
-}
-
 /// Of a row: without cells outside the lattice, and with full cells only where a span can tell of them. Boxes keep all fractions: their walls have marks beside them.
 inline RowEnds SolidMap::stored_ends(Shape shape, const SolidFraction& fraction, int j, int k) const
 {
@@ -246,8 +246,8 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, CutCells& cut,
                    const std::vector<SolidGeometry>& others) const
 {
     const SolidGeometry& geometry = solid.solid.geometry;
-    prefetch_to_write(solid.spans);
-    prefetch_to_write(solid.fractions);
+    lbm::prefetch(solid.spans);
+    lbm::prefetch(solid.fractions);
     fraction.evaluate(geometry, others);
     solid.k = k(geometry);
     measure(solid, fraction, geometry.shape == Shape::sphere && others.empty());
@@ -323,10 +323,14 @@ void SolidMap::for_spans(int first_plane, int end_plane, Body body) const
 {
     // Of units that a solid meets again behind a periodic face the sums are the same.
     const auto own = [](int unit, int units) { return unit < units ? unit : unit % units; };
+    const auto may_meet = [&](const MappedSolid& solid) {
+        const int end = solid.z0 + solid.nz;
+        return solid.z0 < 0 || end > n_[2] || (solid.z0 < end_plane && end > first_plane);
+    };
     for (std::size_t s = 0; s < solids_.size(); ++s) {
         const MappedSolid& solid = solids_[s];
-        const int end = solid.z0 + solid.nz;
-        if (solid.z0 >= 0 && end <= n_[2] && (solid.z0 >= end_plane || end <= first_plane)) continue;
+        if (s + 1 < solids_.size() && may_meet(solids_[s + 1])) lbm::prefetch(solids_[s + 1].spans);
+        if (!may_meet(solid)) continue;
         Walk z(solid.z0, n_[2], units_.planes);
         for (int k = 0; k < solid.nz; ++k, z.next()) {
             if (z.cell < first_plane || z.cell >= end_plane) continue;
