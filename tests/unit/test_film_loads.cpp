@@ -175,7 +175,8 @@ class FilmLoads : public CppUnit::TestFixture {
         std::uniform_real_distribution<double> speed(-0.02, 0.02);
         std::vector<Solid> grains;
         for (int i = 0; i < 4 * 4 * 4; ++i) {  // a lattice of touching neighbours, 45 % solid
-            Solid s = free_sphere(i, 3.8, 1.0, {4.0 + 8 * (i % 4), 4.0 + 8 * (i / 4 % 4), 4.0 + 8 * (i / 16)});
+            const int at[] = {i % 4, i / 4 % 4, i / 16};
+            Solid s = free_sphere(i, 3.8, 1.0, {4.0 + 8 * at[0], 4.0 + 8 * at[1], 4.0 + 8 * at[2]});
             s.velocity = {speed(random), speed(random), speed(random)};
             s.angular_velocity = {0.3 * speed(random), 0.3 * speed(random), 0.3 * speed(random)};
             grains.push_back(s);
