@@ -125,7 +125,7 @@ std::string lubrication_law(const yade::Scene& scene)
         if (!engine || engine->dead || engine->getClassName() != "InteractionLoop") continue;
         const bp::object functors = bp::object(engine).attr("lawDispatcher").attr("functors");
         for (bp::ssize_t i = 0; i < bp::len(functors); ++i) {
-            const std::string name = bp::extract<std::string>(functors[i].attr("__class__").attr("__name__"));
+            std::string name = bp::extract<std::string>(functors[i].attr("__class__").attr("__name__"));
             if (name.find("Lubrication") != std::string::npos) return name;
         }
     }
