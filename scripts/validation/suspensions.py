@@ -44,10 +44,12 @@ def settling(phi, count, diameter, duration, seed):
                                   "duration": duration, **CONTACTS})
 
 
-def shear(phi, count, diameter, duration, seed):
-    """Relative viscosity between moving plates (see scenes/suspension.py)."""
-    n, (centres, a) = side(phi, count, diameter), packing(count, phi, seed, plates=True)
-    return yade("suspension.py", {"kind": "shear", "n": n, "radius": a * n, "centres": centres, "tau": 1.0, "reynolds": 0.1,
+def shear(phi, count, diameter, gap, duration, seed):
+    """Relative viscosity between plates that move, `gap` diameters apart (see scenes/suspension.py)."""
+    height = gap * diameter
+    n = round(diameter * math.sqrt(math.pi / 6 * count / (phi * gap)))  # cells along the base
+    centres, a = packing(count, phi, seed, gap=height / n)
+    return yade("suspension.py", {"kind": "shear", "n": n, "height": height, "radius": a * n, "centres": centres, "tau": 1.0, "reynolds": 0.1,
                                   "duration": duration, **CONTACTS})
 
 
@@ -61,10 +63,11 @@ def runs(quick):
         for seed in range(1, 2 if quick else 4):
             yield Run(settling, {"phi": phi, "count": count, "diameter": 8, "duration": duration, "seed": seed}, 2 * side(phi, count, 8) ** 3 * duration * 320 / 1e9)
     for phi in (0.1, 0.3) if quick else (0.1, 0.2, 0.3):
-        gap, duration = (6, 2) if quick else (8, 6)
-        for seed in range(1, 2 if quick else 3):
-            arguments = {"phi": phi, "count": round(phi * gap**3 / (math.pi / 6)), "diameter": 8, "duration": duration, "seed": seed}
-            yield Run(shear, arguments, 2 * (gap * 8) ** 3 * duration * 960 / 1e9)
+        for gap, duration in ((6, 2),) if quick else ((8, 6), (12, 10)):  # in wider gaps the flow takes longer to come
+            for seed in range(1, 2 if quick else 3):
+                count = round(phi * (6 if quick else 8) ** 3 / (math.pi / 6))
+                arguments = {"phi": phi, "count": count, "diameter": 8, "gap": gap, "duration": duration, "seed": seed}
+                yield Run(shear, arguments, 2 * math.pi / 6 * count / phi * 8**3 * duration * 960 / 1e9)
 
 
 def structure_factor(phi):

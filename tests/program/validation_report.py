@@ -53,15 +53,15 @@ class Verdicts(unittest.TestCase):
 
 class Packing(unittest.TestCase):
     def test_spheres_do_not_overlap_and_the_seed_decides(self):
-        for plates in (False, True):
-            centres, radius = packing.packing(20, 0.4, seed=5, sweeps=20, plates=plates)
-            self.assertEqual(centres, packing.packing(20, 0.4, seed=5, sweeps=20, plates=plates)[0])
-            self.assertAlmostEqual(20 * 4 / 3 * 3.141592653589793 * radius**3, 0.4, delta=1e-12)
+        for gap in (None, 1.5):
+            centres, radius = packing.packing(20, 0.4, seed=5, sweeps=20, gap=gap)
+            self.assertEqual(centres, packing.packing(20, 0.4, seed=5, sweeps=20, gap=gap)[0])
+            self.assertAlmostEqual(20 * 4 / 3 * 3.141592653589793 * radius**3, 0.4 * (gap or 1), delta=1e-12)
             for i, a in enumerate(centres):
-                if plates:
-                    self.assertTrue(radius <= a[2] <= 1 - radius)
+                if gap:
+                    self.assertTrue(radius <= a[2] <= gap - radius)
                 for b in centres[:i]:
-                    apart = [x - y - (0 if plates and d == 2 else round(x - y)) for d, (x, y) in enumerate(zip(a, b))]
+                    apart = [x - y - (0 if gap and d == 2 else round(x - y)) for d, (x, y) in enumerate(zip(a, b))]
                     self.assertGreaterEqual(sum(x * x for x in apart), (2 * radius) ** 2 * (1 - 1e-12))
 
 

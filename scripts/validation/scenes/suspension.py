@@ -13,10 +13,11 @@ from yadelbm import LbmEngine
 
 given = arguments()
 n, a, tau, kind = given["n"], given["radius"], given["tau"], given["kind"]
+height = given.get("height", n)  # of the gap
 O.dt = (tau - 0.5) / 3
 settling = kind == "settling"
 ratio = 2.5 if settling else 1.0
-c = len(given["centres"]) * 4 / 3 * math.pi * a**3 / n**3
+c = len(given["centres"]) * 4 / 3 * math.pi * a**3 / (n * n * height)
 if settling:
     terminal = given["reynolds"] / (2 * a)
     weight = 4.5 * terminal / a**2 / (ratio - 1)  # gravity that gives a single sphere this velocity in Stokes flow
@@ -29,25 +30,25 @@ BALLS, BEADS = 1, 2  # masks
 material = FrictMat(density=ratio, young=push / (given["overlap"] * a * a), poisson=0.3, frictionAngle=0)
 O.materials.append(material)
 O.periodic = True
-O.cell.setBox(n, n, n if settling else n + 6 * a)
+O.cell.setBox(n, n, n if settling else height + 6 * a)
 balls = [O.bodies.append(utils.sphere([x * n for x in centre], a)) for centre in given["centres"]]
 if not settling:
     # The plates are faces of the fluid's box. What keeps spheres from going through them are layers of fixed spheres outside, level to an eighth of a cell: walls and
     # boxes of YADE do not touch what has left the first period. The cell is higher than the box, so that no sphere meets one at the other plate.
     bead, rows = 2 * a, round(n / 2)
-    for z in (-bead, n + bead):
+    for z in (-bead, height + bead):
         for i in range(rows):
             for j in range(rows):
                 O.bodies.append(utils.sphere(((i + 0.5) * n / rows, (j + 0.5) * n / rows, z), bead, fixed=True, mask=BEADS | BALLS))
-speed = 0 if settling else gamma * n / 2
+speed = 0 if settling else gamma * height / 2
 still = (0, 0, 0)
-fluid = LbmEngine(lower=(0, 0, 0), upper=(n, n, n), dx=1, density=1, viscosity=1, tau=tau, gravity=(0, 0, -weight),
+fluid = LbmEngine(lower=(0, 0, 0), upper=(n, n, height), dx=1, density=1, viscosity=1, tau=tau, gravity=(0, 0, -weight),
                   acceleration=(0, 0, (ratio - 1) * c * weight), lubricationRoughness=given["roughness"],
                   boundary=["periodic"] * 6 if settling else ["periodic"] * 4 + ["noSlip"] * 2,
                   boundaryVelocity=[still] * 4 + [(-speed, 0, 0), (speed, 0, 0)], ids=balls, label="fluid")
 if not settling:
     for ball in balls:  # on their way with the shear already
-        O.bodies[ball].state.vel = Vector3(gamma * (O.bodies[ball].state.pos[2] - n / 2), 0, 0)
+        O.bodies[ball].state.vel = Vector3(gamma * (O.bodies[ball].state.pos[2] - height / 2), 0, 0)
 
 
 def contact_stress():
@@ -56,7 +57,7 @@ def contact_stress():
     for contact in O.interactions:
         if contact.isReal and contact.id1 <= balls[-1] and contact.id2 <= balls[-1]:
             total -= contact.phys.normalForce[0] * contact.geom.normal[2] * (2 * a - contact.geom.penetrationDepth)
-    return total / n**3
+    return total / (n * n * height)
 
 
 def sample_settling():
@@ -67,12 +68,12 @@ def sample_settling():
 def sample_shear():
     wall = (fluid.getBoundaryForce(4)[0] - fluid.getBoundaryForce(5)[0]) / 2
     stresslets = sum(fluid.stresslet(b)[0][2] for b in balls)
-    samples.append((abs(wall) / (n * n * gamma), stresslets / (n**3 * gamma), contact_stress() / gamma))
+    samples.append((abs(wall) / (n * n * gamma), stresslets / (n * n * height * gamma), contact_stress() / gamma))
 
 
 def sample_profile():
     """Mean velocity and solid fraction of the layers of cells."""
-    profiles.append((fluid.velocity[..., 0].mean((1, 2)) / (gamma * n), fluid.solidFraction.mean((1, 2))))
+    profiles.append((fluid.velocity[..., 0].mean((1, 2)) / (gamma * height), fluid.solidFraction.mean((1, 2))))
 
 
 samples, profiles = [], []
@@ -97,7 +98,7 @@ def error(late):
 
 
 samples = np.array(samples)
-result = {"n": n, "radius_cells": a, "cells": n**3, "steps": O.iter, "samples": len(samples)}
+result = {"n": n, "radius_cells": a, "cells": n * n * height, "steps": O.iter, "samples": len(samples)}
 late = samples[len(samples) // 2:]
 if settling:
     result.update(ratio=float(late.mean()), error=error(late), early=float(samples[len(samples) // 20:len(samples) // 5].mean()))
@@ -109,9 +110,9 @@ else:
     result["nearest"] = float(distance.min() / (2 * a))  # distance of centres in diameters
     wall, stresslet, contact = late.mean(0)
     # the middle half, away from the layers that plates order: mean solid fraction, and shear rate over the mean one
-    core = slice(round(n / 4), n - round(n / 4))
+    core = slice(round(height / 4), height - round(height / 4))
     velocity, solid = np.mean(profiles[len(profiles) // 2:], 0)
-    slope = np.polyfit(((np.arange(n) + 0.5) / n)[core], velocity[core], 1)[0]
+    slope = np.polyfit(((np.arange(height) + 0.5) / height)[core], velocity[core], 1)[0]
     result.update(eta=float(wall), error=error(late[:, 0]), eta_stresslet=float(1 + stresslet), eta_contacts=float(contact),
                   phi_core=float(solid[core].mean()), rate_core=float(slope), eta_core=float(wall / slope),
                   solid=[round(float(x), 4) for x in solid])
