@@ -30,6 +30,7 @@ GRAVITY = (0, 0, -9.81)       # [m/s2]
 RELEASE = 0.120               # height of the lowest point above the floor [m]
 TAU = 0.8                     # aimed at; lower where the Mach number asks for it
 MACH = 0.08                   # at the experiment's peak velocity
+SLOW, FAST = 1 / 8, 1 / 12    # Lambda for grains that move at Re below and above 10 (user guide, "Limits today")
 FINE_ENOUGH = 9.5             # cells per diameter from which on the peaks have to be right
 E1_NOTE = """\
 E1: the measured peak (0.0360 m/s) lies above the bound that Stokes drag between the six walls puts on it (0.0355 m/s,
@@ -65,12 +66,14 @@ class Fall:
         nu = case["viscosity"] / case["density"]
         viscous_step = (TAU - 0.5) / 3 * dx**2 / nu
         acoustic_step = MACH / math.sqrt(3) * dx / case["peak"]
+        reynolds = case["peak"] * DIAMETER / nu
+        self.magic_parameter = (FAST if reynolds > 10 else SLOW) if magic_parameter is None else magic_parameter
         O.reset()
         O.dt = min(viscous_step, acoustic_step)
         O.materials.append(FrictMat(density=DENSITY, young=1e6, poisson=0.3, frictionAngle=0.5))
         self.tau = 0.5 + 3 * nu * O.dt / dx**2
         self.fluid = LbmEngine(lower=(0, 0, 0), upper=BOX, dx=dx, density=case["density"], viscosity=case["viscosity"],
-                               tau=self.tau, gravity=GRAVITY, boundary=["noSlip"] * 6, magicParameter=magic_parameter, label="fluid")
+                               tau=self.tau, gravity=GRAVITY, boundary=["noSlip"] * 6, magicParameter=self.magic_parameter, label="fluid")
         self.ball = O.bodies.append(utils.sphere((BOX[0] / 2, BOX[1] / 2, RELEASE + DIAMETER / 2), DIAMETER / 2))
         O.engines = [
             ForceResetter(),
@@ -112,6 +115,7 @@ class Fall:
             "terminal": case["terminal"],
             "against_terminal_percent": 100 * (peak / case["terminal"] - 1),
             "tau": self.tau,
+            "magic_parameter": self.magic_parameter,
             "reynolds": peak * DIAMETER * case["density"] / case["viscosity"],
             "cells_per_diameter": DIAMETER / self.dx,
             "steps": O.iter,
@@ -122,9 +126,9 @@ class Fall:
 
 def table(results):
     """The results as text."""
-    lines = ["case      Re    tau   peak [m/s]  measured    error     terminal   difference   steps    time"]
+    lines = ["case      Re    tau   Lambda    peak [m/s]  measured    error     terminal   difference   steps    time"]
     for r in results:
-        lines.append(f"{r['case']}    {r['reynolds']:5.2f}   {r['tau']:.3f}   {r['peak']:.5f}    "
+        lines.append(f"{r['case']}    {r['reynolds']:5.2f}   {r['tau']:.3f}   {r['magic_parameter']:.4f}   {r['peak']:.5f}    "
                      f"{r['experiment']:.5f}   {r['error_percent']:+6.2f} %   {r['terminal']:.5f}   "
                      f"{r['against_terminal_percent']:+6.2f} %   {r['steps']:6d}  {r['seconds']:4.0f} s"
                      f"{'   (see note)' if r['case'] == 'E1' else ''}")
@@ -171,8 +175,8 @@ def arguments():
                         help="which experiments: E1, E2, E3, E4 or all (default)")
     parser.add_argument("--cells-per-diameter", type=float, default=10, metavar="N",
                         help="resolution (default: 10); the nearest that divides the box is taken")
-    parser.add_argument("--magic-parameter", type=float, default=math.nan, metavar="L",
-                        help="Lambda of the two relaxation times (default: the engine's, 1/8)")
+    parser.add_argument("--magic-parameter", type=float, metavar="L",
+                        help="Lambda of the two relaxation times (default: 1/8, above Re = 10 1/12)")
     parser.add_argument("--output", default=os.path.join("results", "ten_cate"), metavar="DIR",
                         help="folder for tables and the plot")
     return parser.parse_args(sys.argv[1:])

@@ -163,20 +163,22 @@ def settling_rows(results):
 
 
 def sheared(results):
-    """{mean phi: {name of a value: (mean over arrangements, standard error)}}; `error_core` and `error_plates` are against Eilers."""
+    """{(mean phi, gap): {name of a value: (mean over arrangements, standard error)}}; `error_core` and `error_plates` are against Eilers."""
     found = {}
-    for (phi,), group in groups(of(results, shear), "phi").items():
-        found[phi] = {name: mean(r[name] for r in group) for name in ("eta", "eta_core", "phi_core", "rate_core", "eta_stresslet", "eta_contacts")}
-        found[phi]["error_core"] = mean(r["eta_core"] / eilers(r["phi_core"]) - 1 for r in group)
-        found[phi]["error_plates"] = mean(r["eta"] / eilers(phi) - 1 for r in group)
+    for (phi, gap), group in groups(of(results, shear), "phi", "gap").items():
+        values = {name: mean(r[name] for r in group) for name in ("eta", "eta_core", "phi_core", "rate_core", "eta_stresslet", "eta_contacts", "nearest")}
+        values["error_core"] = mean(r["eta_core"] / eilers(r["phi_core"]) - 1 for r in group)
+        values["error_plates"] = mean(r["eta"] / eilers(phi) - 1 for r in group)
+        found[phi, gap] = {**values, "count": group[0]["count"]}
     return found
 
 
 def shear_rows(results):
-    found = []
-    for phi, of_phi in sheared(results).items():
-        found += [Row(f"viscosity of the middle half against Eilers at its solid fraction {of_phi['phi_core'][0]:.3f}, mean phi = {phi:g}", "d = 8", "1", of_phi["error_core"][0], 0.1),
-                  Row(f"viscosity from plate to plate against Eilers at the mean phi = {phi:g}", "d = 8", "1", of_phi["error_plates"][0], 0.1)]
+    found, means = [], sheared(results)
+    for (phi, gap), values in means.items():
+        widest = gap == max(g for _, g in means)
+        found += [Row(f"viscosity of the middle half against Eilers at its solid fraction {values['phi_core'][0]:.3f}, mean phi = {phi:g}, gap of {gap} d", "d = 8", "1", values["error_core"][0], 0.1),
+                  Row(f"viscosity from plate to plate against Eilers at the mean phi = {phi:g}, gap of {gap} d", "d = 8", "1", values["error_plates"][0], 0.1 if widest else None)]
     return found
 
 
@@ -194,20 +196,20 @@ def settling_table(results):
 
 def shear_table(results):
     lines = []
-    for mean_phi, of_phi in sheared(results).items():
-        for where, phi, eta in (("plate to plate", mean_phi, of_phi["eta"]), ("middle half", of_phi["phi_core"][0], of_phi["eta_core"])):
+    for (mean_phi, gap), values in sheared(results).items():
+        for where, phi, eta in (("plate to plate", mean_phi, values["eta"]), ("middle half", values["phi_core"][0], values["eta_core"])):
             green = [f"{1 + 2.5 * phi + c * phi**2:.3f}" if phi < 0.16 else "" for c in (5.2, 7.6)]
-            lines.append((where, f"{phi:.3f}", with_error(eta), f"{eilers(phi):.3f}", f"{zarraga(phi):.3f}", *green, f"{viscosity_at_rest(phi):.3f}"))
-    return table(("where", "phi", "eta_r", "Eilers (the target)", "Zarraga et al.", "Batchelor & Green, shear", "strain", "equilibrium at rest (Ladd)"), lines)
+            lines.append((f"{gap} d", where, f"{phi:.3f}", with_error(eta), f"{eilers(phi):.3f}", f"{zarraga(phi):.3f}", *green, f"{viscosity_at_rest(phi):.3f}"))
+    return table(("gap", "where", "phi", "eta_r", "Eilers (the target)", "Zarraga et al.", "Batchelor & Green, shear", "strain", "equilibrium at rest (Ladd)"), lines)
 
 
 def balance(results):
-    """One line per mean fraction."""
+    """One line per mean fraction and gap."""
     lines = []
-    for phi, of_phi in sheared(results).items():
-        group = [r for r in of(results, shear) if r["phi"] == phi]
-        lines.append(f"- phi = {phi:g}, {group[0]['count']} spheres: {of_phi['eta'][0]:.3f} from the plates, {of_phi['eta_stresslet'][0] + of_phi['eta_contacts'][0]:.3f} from stresslets and contacts, contacts {of_phi['eta_contacts'][0]:.3f}; "
-                     f"shear rate in the middle half {of_phi['rate_core'][0]:.3f} of the mean one; nearest centres at the end {min(r['nearest'] for r in group):.4f} d")
+    for (phi, gap), of_run in sheared(results).items():
+        value = {name: of_run[name][0] for name in ("eta", "eta_stresslet", "eta_contacts", "rate_core", "nearest")}
+        lines.append(f"- phi = {phi:g}, gap of {gap} d, {of_run['count']} spheres: {value['eta']:.3f} from the plates, {value['eta_stresslet'] + value['eta_contacts']:.3f} from stresslets and contacts, contacts {value['eta_contacts']:.3f}; "
+                     f"shear rate in the middle half {value['rate_core']:.3f} of the mean one; nearest centres at the end {value['nearest']:.4f} d")
     return "\n".join(lines)
 
 
@@ -261,8 +263,10 @@ def figures(results):
         for law, style, name in ((eilers, "k-", "Eilers"), (zarraga, "k--", "Zarraga et al."), (viscosity_at_rest, "k:", "equilibrium at rest")):
             right.plot(phi, [law(p) for p in phi], style, lw=1, label=name)
         means = sheared(results)
-        right.plot(list(means), [m["eta"][0] for m in means.values()], "x", color=COLOURS[1], label="plate to plate")
-        right.plot([m["phi_core"][0] for m in means.values()], [m["eta_core"][0] for m in means.values()], "o", color=COLOURS[1], label="middle half")
+        for gap, colour in zip(sorted({gap for _, gap in means}), COLOURS):
+            chosen = {phi: values for (phi, g), values in means.items() if g == gap}
+            right.plot(list(chosen), [m["eta"][0] for m in chosen.values()], "x", color=colour, label=f"gap of {gap} d, plate to plate")
+            right.plot([m["phi_core"][0] for m in chosen.values()], [m["eta_core"][0] for m in chosen.values()], "o", mfc="none", color=colour, label="middle half")
         right.set(xlabel="solid fraction phi", ylabel="relative viscosity", xlim=(0, 0.45), ylim=(0.9, 6))
         right.legend(fontsize=7)
 
