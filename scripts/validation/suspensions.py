@@ -7,7 +7,7 @@ from .channels import of
 from .engine import lbm, reference, sphere, stokes, yade
 from .packing import packing
 from .plotting import COLOURS
-from .report import table
+from .report import percent, table
 
 SETTLING = {float(row["c"]): row for row in reference("07_hindered_settling.csv")}
 REYNOLDS = 0.2  # of a sphere settling alone
@@ -214,9 +214,10 @@ def balance(results):
 
 
 def text(results):
-    dense = "".join(f"{of_phi['phi_core'][0]:.3f}" for phi, of_phi in sheared(results).items() if phi == 0.3)
-    last = sheared(results).get(0.3, {}).get("error_core", (math.nan, math.nan))
-    residue, scatter = (f"{100 * x:.1f}" for x in last)
+    dense = {gap: values for (phi, gap), values in sheared(results).items() if phi == 0.3}
+    fractions = " and ".join(f"{values['phi_core'][0]:.3f} in one of {gap}" for gap, values in dense.items())
+    residues = " and ".join(f"{percent(values['error_core'][0])}" for values in dense.values())
+    scatter = f"{100 * max((values['error_core'][1] for values in dense.values()), default=math.nan):.1f}"
     return f"""
 **Settling.** U / U_t, mean and standard error over arrangements; "endless" has the size correction 1.76 (phi / N)^(1/3) S(0) / eta_r added (S(0) of hard spheres in equilibrium; eta_r of such at rest) [Ladd 1990].
 
@@ -235,8 +236,8 @@ Richardson & Zaki's is chance, and the agreement reported here before was of thi
 {balance(results)}
 
 Sheared spheres touch each other across the periodic images and are held between the plates by layers of fixed spheres outside the fluid. The balance closes: the stress on the plates is the fluid's, the stresslets and the contacts.
-From plate to plate the suspension is more viscous than an endless one of its mean fraction: no centre comes nearer to a plate than a radius, so the middle of the gap is denser than the mean (0.336 in a gap of six diameters, {dense} in one of eight, where the mean is 0.3),
-and viscosity rises steeply there. This is about half of what is above Eilers at phi = 0.3. So the middle half is compared with the correlation at its own fraction and shear rate too; {residue} % are left, where arrangements have a standard error of {scatter} %. Eilers' and Zarraga's correlations differ by 22 % at 0.3; the spheres of the second were rough and rubbed. Contacts that give in by more than the films' roughness
+From plate to plate the suspension is more viscous than an endless one of its mean fraction: no centre comes nearer to a plate than a radius, so the middle of the gap is denser than the mean (0.336 in a gap of six diameters, {fractions}, where the mean is 0.3),
+and viscosity rises steeply there; the wider gap has less of it. So the middle half is compared with the correlation at its own fraction and shear rate too; {residues} are left at phi = 0.3, where arrangements have a standard error of up to {scatter} %. Eilers' and Zarraga's correlations differ by 22 % at 0.3; the spheres of the second were rough and rubbed. Contacts that give in by more than the films' roughness
 are held together by films for several strains and add to the viscosity: with overlaps of 0.01 a and a roughness of 0.001 a the plates felt 3.68 at phi = 0.3, and it still grew. Dependence on roughness and inertia, the viscosity before anything has moved, and two spheres
 that pass each other: [physics.md](physics.md#films). Over parts of the strain the viscosity varies by 5 %.
 
@@ -279,8 +280,8 @@ SUSPENSIONS = Case(
     solved="""
 At rest: 60 free spheres under equal forces, steady Stokes flow of one arrangement held in place (`lbm run`), mean over three directions. Settling and viscosity: `LbmEngine` with films (roughness 0.005 a) and
 YADE's frictionless contacts, which give in by 0.001 a under 6 pi mu a U_t or 6 pi mu a^2 gamma. Settling: 100 free spheres (density ratio 2.5, Re of a single one 0.2) in a periodic cube, the drive
-taking up their net weight; the mean velocity relative to the mixture over the second half of the time, over the unbounded velocity of one sphere. Viscosity: neutrally buoyant spheres between plates eight diameters apart that move (gamma a^2 / nu = 0.1), stress on
-the plates over the second half of a strain of 6, and independently from stresslets and contacts; beside it the same stress over the shear rate of the middle half of the gap. All start from random hard-sphere arrangements in equilibrium.""",
+taking up their net weight; the mean velocity relative to the mixture over the second half of the time, over the unbounded velocity of one sphere. Viscosity: neutrally buoyant spheres between plates eight or twelve diameters apart that move (gamma a^2 / nu = 0.1), stress on
+the plates over the second half of a strain of 6 or 10, and independently from stresslets and contacts; beside it the same stress over the shear rate of the middle half of the gap. All start from random hard-sphere arrangements in equilibrium.""",
     reference="""
 Sedimentation at rest: hard spheres in equilibrium, the fit of Riest et al. (2015, Soft Matter 11, 2821; its first two coefficients are those of Batchelor 1972 and Cichocki et al. 2002; quoted from memory).
 `07_hindered_settling.csv` (Richardson & Zaki 1954, Garside & Al-Dibouni 1977), `08_suspension_viscosity.csv` (Eilers, phi_m = 0.63: the target); Zarraga, Hill & Leighton (2000). These are correlations of measurements: they differ from each other by
