@@ -45,6 +45,7 @@ class SolidFraction : public CppUnit::TestFixture {
     CPPUNIT_TEST(fractions_add_up_to_the_volume);
     CPPUNIT_TEST(cells_agree_with_fine_chords);
     CPPUNIT_TEST(inner_cells_are_full_and_outer_ones_empty);
+    CPPUNIT_TEST(rows_end_where_their_fractions_do);
     CPPUNIT_TEST(half_cut_cells_are_half_full);
     CPPUNIT_TEST(sphere_inside_one_cell_is_whole);
     CPPUNIT_TEST_SUITE_END();
@@ -101,6 +102,28 @@ class SolidFraction : public CppUnit::TestFixture {
                     else if (near2 > R * R) CPPUNIT_ASSERT_EQUAL(0.0, epsilon);
                     else CPPUNIT_ASSERT(epsilon >= 0 && epsilon <= 1);
                 }
+    }
+
+    void rows_end_where_their_fractions_do()
+    {
+        SphereFraction s;
+        for (const double R : {0.3, 2.0, 6.1, 21.0})
+            for (int n = 0; n < 20; ++n) {
+                s.evaluate({uniform() - 5, uniform(), n < 2 ? 3.0 : uniform()}, R);
+                for (int k = 0; k < s.count()[2]; ++k)
+                    for (int j = 0; j < s.count()[1]; ++j) {
+                        const RowEnds ends = s.ends()[k * s.count()[1] + j];
+                        CPPUNIT_ASSERT(0 <= ends.begin && ends.begin <= ends.full_begin);
+                        CPPUNIT_ASSERT(ends.full_begin <= ends.full_end && ends.full_end <= ends.end);
+                        CPPUNIT_ASSERT(ends.end <= s.count()[0]);
+                        for (int i = 0; i < s.count()[0]; ++i) {
+                            const double epsilon = s.row(j, k)[i];
+                            if (i < ends.begin || i >= ends.end) LBM_ASSERT_CLOSE(0, epsilon, kFractionError, 1.0);
+                            else if (i >= ends.full_begin && i < ends.full_end)
+                                LBM_ASSERT_CLOSE(1, epsilon, kFractionError, 1.0);
+                        }
+                    }
+            }
     }
 
     void half_cut_cells_are_half_full()
