@@ -98,6 +98,7 @@ std::array<bool, 6> mirrors(const FluidConfig& c)
 
 }  // namespace
 
+// cppcheck-suppress uninitMemberVar ; it does not see the initialisers of a constructor that is a try block
 Fluid::Implementation::Implementation(const FluidConfig& c)
 try : config(validated(c)), dt(fluid_time_step(c.tau, c.dx, c.viscosity / c.density)), units(c.dx, dt, c.density),
     collision(collision_parameters(c, units)), populations(make_populations(c)),
