@@ -47,13 +47,14 @@ lbm::Solid solid(const Body& body, double lead, const State& moving)
         result.body = body.clumpId;
         result.lever = vec3(state.se3.position - moving.se3.position);
     }
-    if (const auto* box = dynamic_cast<const Box*>(body.shape.get())) {
+    const yade::Shape& shape = *body.shape;
+    if (typeid(shape) == typeid(Sphere)) {
+        result.radius = static_cast<const Sphere&>(shape).radius;
+    } else {
         const yade::Quaternionr& q = state.se3.orientation;
         result.shape = lbm::Shape::box;
-        result.half_extents = vec3(box->extents);
+        result.half_extents = vec3(static_cast<const Box&>(shape).extents);
         result.orientation = {q.w(), q.x(), q.y(), q.z()};
-    } else {
-        result.radius = static_cast<const Sphere&>(*body.shape).radius;
     }
     result.position = vec3(state.se3.position);
     result.velocity = vec3(state.vel);
