@@ -79,6 +79,7 @@ class SolidShapes : public CppUnit::TestFixture {
     CPPUNIT_TEST(buoyancy_of_a_body_counts_the_union);
     CPPUNIT_TEST(bodies_that_come_apart_count_all_their_volume_again);
     CPPUNIT_TEST(a_part_that_leaves_its_body_takes_its_volume_along);
+    CPPUNIT_TEST(a_sphere_beyond_a_wall_beside_its_images_has_no_load);
     CPPUNIT_TEST(walls_of_a_box_follow_what_its_body_covers);
     CPPUNIT_TEST(channel_between_boxes_on_the_lattice_is_exact);
     CPPUNIT_TEST(moving_box_drags_a_couette_flow);
@@ -213,6 +214,21 @@ class SolidShapes : public CppUnit::TestFixture {
         fluid.place_solids({ball(0, {8, 7, 7}, 4), ball(1, {13, 7, 7}, 4)});
         fluid.step();
         LBM_ASSERT_CLOSE(2e-4 * V, fluid.loads()[0].force[2] + fluid.loads()[1].force[2], kRoundOff, 1.0);
+    }
+
+    /// Its images behind the periodic faces are near enough for narrow pores, but none of its cells is there.
+    void a_sphere_beyond_a_wall_beside_its_images_has_no_load()
+    {
+        FluidConfig c = test::lattice_config({6, 6, 12}, 0.8);
+        c.faces[kZMin].type = c.faces[kZMax].type = FaceType::no_slip;
+        c.acceleration = {1e-4, 0, 0};
+        Fluid fluid(c);
+        for (const double z : {-4.0, 18.0, 13.5, 12.5}) {
+            fluid.place_solids({ball(0, {3, 3, z}, 2.5)});
+            fluid.step();
+            if (z < 0 || z - 2.5 > 12) LBM_ASSERT_CLOSE(0.0, norm(fluid.loads()[0].force), kRoundOff, 1e-4);
+            else CPPUNIT_ASSERT(norm(fluid.loads()[0].force) > 0);
+        }
     }
 
     void a_part_that_leaves_its_body_takes_its_volume_along()

@@ -80,6 +80,7 @@ void CutCells::gather()
 /// Works on whole packs: cells beyond the last one are empty.
 double CutCells::thicken(double radius, const std::vector<Opposite>& opposite)
 {
+    if (count_ == 0) return 0;  // a sphere outside of the lattice, beside its own images
     const SphereKernels& kernels = sphere_kernels();
     std::fill_n(thickening_.data(), padded_to_packs(count_), 0.0);
     for (const Opposite& other : opposite) {
