@@ -237,11 +237,11 @@ Richardson & Zaki's is chance, and the agreement reported here before was of thi
 
 Sheared spheres touch each other across the periodic images and are held between the plates by layers of fixed spheres outside the fluid. The balance closes: the stress on the plates is the fluid's, the stresslets and the contacts.
 From plate to plate the suspension is more viscous than an endless one of its mean fraction: no centre comes nearer to a plate than a radius, so the middle of the gap is denser than the mean (0.336 in a gap of six diameters, {fractions}, where the mean is 0.3),
-and viscosity rises steeply there; the wider gap has less of it. So the middle half is compared with the correlation at its own fraction and shear rate too; {residues} are left at phi = 0.3, where arrangements have a standard error of up to {scatter} %. Eilers' and Zarraga's correlations differ by 22 % at 0.3; the spheres of the second were rough and rubbed. Contacts that give in by more than the films' roughness
+and viscosity rises steeply there. At phi = 0.2 the plates feel less of it in the wider gap; at 0.3 they do not, and single arrangements differ by more than the two gaps. So the middle half is compared with the correlation at its own fraction and shear rate too; {residues} are left at phi = 0.3, where arrangements have a standard error of up to {scatter} %. Eilers' and Zarraga's correlations differ by 22 % at 0.3; the spheres of the second were rough and rubbed. Contacts that give in by more than the films' roughness
 are held together by films for several strains and add to the viscosity: with overlaps of 0.01 a and a roughness of 0.001 a the plates felt 3.68 at phi = 0.3, and it still grew. Dependence on roughness and inertia, the viscosity before anything has moved, and two spheres
 that pass each other: [physics.md](physics.md#films). Over parts of the strain the viscosity varies by 5 %.
 
-The seconds below were taken beside other work; alone it is an estimated 1200 of one core.
+The seconds below were taken beside other work.
 """
 
 
