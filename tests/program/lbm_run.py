@@ -104,6 +104,12 @@ class Results(unittest.TestCase):
                 drags.append(drag(case, result))
             self.assertLess(max(drags) / min(drags) - 1, 1e-7)
 
+    def test_a_fluid_that_its_walls_hold_becomes_steady(self):
+        case = array(acceleration=[1e-4, 2e-4, -1e-4], boundaries={axis: {"min": {"type": "noSlip"}, "max": {"type": "noSlip"}} for axis in "xyz"}, solids=[])
+        status, result, message = run(case)
+        self.assertEqual(status, 0, message)
+        self.assertLess(max(map(abs, result["superficial_velocity"])), 1e-15)
+
     def test_a_flow_without_net_velocity_or_force_becomes_steady(self):
         spinning = array(10, acceleration=[0, 0, 0])
         spinning["solids"][0].update(moving=True, angular_velocity=[0, 0, 1e-2])

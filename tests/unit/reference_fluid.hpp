@@ -39,8 +39,28 @@ public:
                 pressure += face.pressure;
                 ++faces;
             }
-        for (int i = 0; faces > 0 && i < L::Q; ++i)
-            for (double& f : f_[i]) f = L::w(i) * 3 * pressure / faces;
+        for (int i = 0; i < L::Q; ++i) {
+            const Vec3 c_i{double(L::c[i][0]), double(L::c[i][1]), double(L::c[i][2])};
+            const double drho = faces > 0 ? 3 * pressure / faces : 0;
+            for (double& f : f_[i]) f = L::w(i) * (drho - 1.5 * dot(c_i, c.acceleration));
+        }
+    }
+
+    /// What solids hold of the fluid at the start: at rest it lacks half of the drive.
+    std::vector<Load> at_the_start(const std::vector<Solid>& solids)
+    {
+        map(solids);
+        std::vector<Load> start(solids.size());
+        for (const auto& shares : shares_) {
+            double sum = 0;
+            for (const Share& share : shares) sum += share.epsilon;
+            for (const Share& share : shares) {
+                const Vec3 P = (-0.5 * share.epsilon / std::max(sum, 1.0)) * c_.acceleration;
+                start[share.solid].inside += P;
+                start[share.solid].angular_inside += cross(share.r, P);
+            }
+        }
+        return start;
     }
 
     std::vector<double>& population(int i) { return f_[i]; }

@@ -73,15 +73,14 @@ class Step : public CppUnit::TestFixture {
         Fluid fluid(c);
         ReferenceFluid<L> reference(c);
         fluid.place_solids(start);
-        std::vector<typename ReferenceFluid<L>::Load> before(start.size());
+        auto before = reference.at_the_start(start);
         for (int t = 0; t < kSteps; ++t) {
             const auto solids = moved(start, t), last = moved(start, std::max(0, t - 1));
             fluid.place_solids(solids);
             fluid.step();
             reference.step(solids);
             for (std::size_t s = 0; s < start.size(); ++s) {
-                // The bookkeeping of the physics page; the fluid starts at rest, so P_in and L_in start at zero.
-                // L_in is about the centre, which has moved since.
+                // The bookkeeping of the physics page. L_in is about the centre, which has moved since.
                 const auto& now = reference.loads()[s];
                 before[s].angular_inside -= cross(solids[s].position - last[s].position, before[s].inside);
                 for (int d = 0; d < 3; ++d) {

@@ -110,7 +110,7 @@ public:
     double permeability() const;
     double total_mass() const;  ///< of the lattice's fluid [kg]
     /// Momentum of the fluid outside the solids, with the part of it that is on its way to them [kg m/s]: adding the solids' own
-    /// (m V) gives a sum that only drive, weight and walls change.
+    /// (m V) gives a sum that only drive, weight and walls change. It has had half a step less of the drive than the velocities.
     Vec3 total_momentum() const;
     /**
      * The same for angular momentum about the origin of the coordinates [kg m2/s]: with the solids' own (m X x V and that of their spin) the sum changes by the torques of walls and weight

@@ -125,26 +125,33 @@ void Fluid::Implementation::throw_out_of_memory(const char* asked) const
                            config.storage == Storage::single_precision ? "" : ", or single storage"));
 }
 
-/// The fluid in equilibrium at one density and velocity. All slots, since what left through the faces has to fit too.
+/**
+ * The fluid in equilibrium at one density and velocity, half of the drive's sources short: the velocity of a step contains half of its drive. All slots, since what left through
+ * the faces has to fit too.
+ */
 void Fluid::Implementation::start_at(double drho, const Vec3& u)
 {
-    if (drho == 0 && u == Vec3{}) return;
+    const auto& F = collision.body_force;
+    if (drho == 0 && u == Vec3{} && F[0] == 0 && F[1] == 0 && F[2] == 0) return;
     const ThreadCount threads(config);
     std::visit(
         [&]<class L, class T>(Populations<L, T>& f) {
             const Layout<L>& layout = f.layout;
-            T equilibrium[L::Q];
-            const double rho = config.inertia ? 1 + drho : 1, u2 = config.inertia ? dot(u, u) : 0;
+            T start[L::Q];
+            const double rho = config.inertia ? 1 + drho : 1;
+            const double u2 = dot(u, u), uF = u[0] * F[0] + u[1] * F[1] + u[2] * F[2];
             for (int i = 0; i < L::Q; ++i) {
-                const double cu = L::c[i][0] * u[0] + L::c[i][1] * u[1] + L::c[i][2] * u[2];
-                const double square = config.inertia ? 4.5 * cu * cu : 0;
-                equilibrium[i] = static_cast<T>(L::w(i) * (drho + rho * (3 * cu + square - 1.5 * u2)));
+                const auto& c = L::c[i];
+                const double cu = c[0] * u[0] + c[1] * u[1] + c[2] * u[2], cF = c[0] * F[0] + c[1] * F[1] + c[2] * F[2];
+                double population = drho + 3 * (rho * cu - 0.5 * cF);
+                if (config.inertia) population += rho * (4.5 * cu * cu - 1.5 * u2) - 0.5 * (9 * cu * cF - 3 * uF);
+                start[i] = static_cast<T>(L::w(i) * population);
             }
 #pragma omp parallel for schedule(static)
             for (int z = -1; z <= layout.n[2]; ++z)
                 for (int y = -1; y <= layout.n[1]; ++y)
                     for (int i = 0; i < L::Q; ++i)
-                        std::fill_n(f.data() + layout.slot(i, -1, y, z), layout.n[0] + 2, equilibrium[i]);
+                        std::fill_n(f.data() + layout.slot(i, -1, y, z), layout.n[0] + 2, start[i]);
         },
         populations);
 }
