@@ -67,14 +67,16 @@ int run(const std::string& path)
     double last = 0;
     bool shown = false;
     const bool terminal = isatty(STDERR_FILENO);
-    const auto result = lbm::run_case(input, [&](const lbm::Progress& p) {
+    const auto report = [&](const lbm::Progress& p) {
         if (p.seconds - last < kSecondsBetweenReports) return;
         last = p.seconds;
         shown = true;
         std::fprintf(stderr, "%sstep %lld of at most %lld, %.0f s, change %.1e%s", terminal ? "\r" : "",
                      static_cast<long long>(p.step), static_cast<long long>(p.max_steps), p.seconds, p.change,
                      terminal ? "   " : "\n");
-    });
+    };
+    const auto warn = [](const std::string& what) { std::fprintf(stderr, "lbm: warning: %s\n", what.c_str()); };
+    const auto result = lbm::run_case(input, report, warn);
     if (shown && terminal) std::fputc('\n', stderr);
     print(result.json);
     if (!result.not_written.empty()) throw lbm::RunError(result.not_written);

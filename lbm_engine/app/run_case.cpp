@@ -2,11 +2,14 @@
 
 #include "rigid_body.hpp"
 
+#include "lbm/overlap.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -130,14 +133,29 @@ void require_writable(const std::string& vtk)
     if (!is_there) std::filesystem::remove(vtk, unknown);
 }
 
+void warn_of_overlaps(const FluidConfig& c, const std::vector<Solid>& solids,
+                      const std::function<void(const std::string&)>& warn)
+{
+    const Overlaps found = overlaps(c, solids);
+    if (found.pairs == 0) return;
+    char shared[16];
+    std::snprintf(shared, sizeof shared, "%.3g", 100 * found.shared);
+    warn("solids[" + std::to_string(found.one) + "] and solids[" + std::to_string(found.other) + "] share " + shared +
+         " % of the smaller one's volume, the most of " + std::to_string(found.pairs) +
+         " overlapping pairs that are not one body: it counts twice, in buoyancy and in the resistance to the flow; "
+         "give both the same \"body\"");
+}
+
 }  // namespace
 
-CaseResult run_case(const Case& input, const std::function<void(const Progress&)>& report)
+CaseResult run_case(const Case& input, const std::function<void(const Progress&)>& report,
+                    const std::function<void(const std::string&)>& warn)
 {
     require_writable(input.vtk);
     Fluid fluid(input.fluid);
     Motion motion(input, fluid.dt());
     fluid.place_solids(motion.solids());
+    warn_of_overlaps(input.fluid, motion.solids(), warn);
     const double mass = fluid.total_mass();
     const std::int64_t steps_between = window(input.fluid);
 

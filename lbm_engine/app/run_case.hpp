@@ -27,8 +27,10 @@ struct CaseResult {
  *
  * Steady: the mean velocity and every load changed by less than the fraction `steady` of their size over one tenth of the slowest viscous
  * time, L^2 / (pi^2 nu) for the longest side L (at least 200 steps).
+ * @param warn  is given what is likely not meant, before the first step
  * @throws ConfigError, RunError
  */
-CaseResult run_case(const Case& input, const std::function<void(const Progress&)>& report);
+CaseResult run_case(const Case& input, const std::function<void(const Progress&)>& report,
+                    const std::function<void(const std::string&)>& warn);
 
 }  // namespace lbm

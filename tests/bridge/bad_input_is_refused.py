@@ -235,6 +235,20 @@ def densities_in_other_units_are_pointed_out():
     check("times the density" not in str(fluid.plan()), "warning for a fixed body")
 
 
+def spheres_that_overlap_are_pointed_out():
+    fluid = one_sphere()
+    one = O.bodies[0]
+    other = O.bodies.append(utils.sphere(one.state.pos + Vector3(one.shape.radius, 0, 0), one.shape.radius, fixed=True))
+    text = "Spheres 0 and 1 share 31.3 % of the smaller one's volume and are not one clump"
+    check(text in str(fluid.plan()), "no warning: %s" % fluid.plan())
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        O.run(3, True)
+    check(sum(text in str(warning.message) for warning in caught) == 1, "not said once: %s" % caught)
+    O.bodies.clump([0, other])
+    check("share" not in str(fluid.plan()), "warning for a clump")
+
+
 def too_fast_for_the_lattice_is_refused_before_the_run():
     fluid = one_sphere(tau=0.6)
     O.bodies[0].state.vel = (100, 0, 0)
@@ -393,6 +407,7 @@ prove(
     a_time_step_of_very_many_fluid_steps_is_refused,
     more_threads_than_processors_are_not_used,
     bodies_outside_the_box_are_pointed_out,
+    spheres_that_overlap_are_pointed_out,
     densities_in_other_units_are_pointed_out,
     too_fast_for_the_lattice_is_refused_before_the_run,
     too_fast_for_the_lattice_stops_the_run,

@@ -104,6 +104,17 @@ class Results(unittest.TestCase):
                 drags.append(drag(case, result))
             self.assertLess(max(drags) / min(drags) - 1, 1e-7)
 
+    def test_spheres_that_overlap_are_warned_about(self):
+        case = array(stop={"max_steps": 1, "steady": 0})
+        other = dict(case["solids"][0], center=[0.5 * 8 * DX, 0.5 * 8 * DX, 0.75 * 8 * DX])
+        case["solids"].append(other)
+        status, _, message = run(case)
+        self.assertEqual(status, 0)
+        self.assertIn("solids[0] and solids[1] share ", message)
+        for solid in case["solids"]:
+            solid["body"] = 1
+        self.assertEqual(run(case)[2], "")
+
     def test_a_fluid_that_its_walls_hold_becomes_steady(self):
         case = array(acceleration=[1e-4, 2e-4, -1e-4], boundaries={axis: {"min": {"type": "noSlip"}, "max": {"type": "noSlip"}} for axis in "xyz"}, solids=[])
         status, result, message = run(case)

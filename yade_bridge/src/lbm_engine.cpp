@@ -168,6 +168,8 @@ void LbmEngine::start()
     const lbm::Plan plan = lbm::plan_time_step(request);
     asked_.warnings.insert(asked_.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
     auto fluid = std::make_unique<lbm::Fluid>(fluid_config(settings_, plan.tau, threads_to_use()));
+    const std::string overlap = overlap_warning(fluid->config(), solids_);
+    if (!overlap.empty()) asked_.warnings.push_back(overlap);
     schedule_ = Schedule(scene->dt, fluid->dt());
     fluid_ = std::move(fluid);
 }
@@ -362,8 +364,12 @@ FluidPlan LbmEngine::plan() const
     request.throughput = throughput();
     request.contact_frequency = contact_frequency(now, solids);
     FluidPlan plan{lbm::plan_time_step(request), fluid_cells()};
-    lbm::Fluid::check(fluid_config(settings_, plan.tau, 0));
-    for (const std::string& warning : scene_warnings(now, settings_, solids)) {
+    const lbm::FluidConfig config = fluid_config(settings_, plan.tau, 0);
+    lbm::Fluid::check(config);
+    std::vector<std::string> warnings = scene_warnings(now, settings_, solids);
+    const std::string overlap = overlap_warning(config, solids);
+    if (!overlap.empty()) warnings.push_back(overlap);
+    for (const std::string& warning : warnings) {
         plan.warnings.push_back(warning);
         if (!plan.report.empty() && plan.report.back() != '\n') plan.report += '\n';
         plan.report += "  warning: " + warning + '\n';

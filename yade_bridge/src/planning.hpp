@@ -2,6 +2,7 @@
 
 #include "settings.hpp"
 
+#include "lbm/fluid_config.hpp"
 #include "lbm/planner.hpp"
 #include "lbm/solid.hpp"
 
@@ -49,6 +50,9 @@ void check_lubrication(const Settings& settings, const std::string& law);
  */
 std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& settings,
                                         const std::vector<lbm::Solid>& solids);
+
+/// What spheres that overlap without being one clump do, a sentence; empty where none do.
+std::string overlap_warning(const lbm::FluidConfig& config, const std::vector<lbm::Solid>& solids);
 
 /**
  * Frequency sqrt(k / m) of the stiffest contact [rad/s]: of those that there are, else of two equal spheres, from Young's moduli and radii

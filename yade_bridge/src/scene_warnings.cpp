@@ -4,6 +4,7 @@
 #include "text.hpp"
 
 #include "lbm/errors.hpp"
+#include "lbm/overlap.hpp"
 
 #include <core/Scene.hpp>
 
@@ -98,6 +99,19 @@ double frequency_of_contacts(const bp::object& omega)
 }
 
 }  // namespace
+
+std::string overlap_warning(const lbm::FluidConfig& config, const std::vector<lbm::Solid>& solids)
+{
+    const lbm::Overlaps found = lbm::overlaps(config, solids);
+    if (found.pairs == 0) return {};
+    const std::string one = std::to_string(found.one), other = std::to_string(found.other);
+    return "Spheres " + one + " and " + other + " share " + text(std::round(1e3 * found.shared) / 10) +
+           " % of the smaller one's volume" +
+           (found.pairs > 1 ? " (the most of " + std::to_string(found.pairs) + " pairs)" : "") +
+           " and are not one clump: it counts twice, in buoyancy and in the resistance to the flow; clump them, "
+           "O.bodies.clump([" +
+           one + ", " + other + "]), or leave one of them out with mask or ids.";
+}
 
 double contact_frequency(const yade::Scene& scene, const std::vector<lbm::Solid>& solids)
 {
