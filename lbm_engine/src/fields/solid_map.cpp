@@ -17,20 +17,20 @@
 namespace lbm {
 namespace {
 
-/// Goes along an axis from cell i0 on, not wrapped.
+/// Goes along an axis, over cells that need not be wrapped, unit by unit.
 struct Walk {
-    int n, size;    ///< cells of the lattice, and in a unit
-    int cell;       ///< wrapped
-    int image = 0;  ///< not wrapped it is cell + image n
-    int rest;       ///< cells that are left in the unit after this one
-    int unit = 0;   ///< of those passed, from 0 on
+    int left;        ///< cells, from this one on
+    int n, size;     ///< cells of the lattice, and in a unit
+    int cell;        ///< wrapped
+    int image = 0;   ///< not wrapped it is cell + image n
+    int passed = 0;  ///< units, a single one that is met again not counted
 
-    Walk(int i0, int n_, int size_) : n(n_), size(size_), cell(i0)
+    Walk(int first, int count, int n_, int size_) : left(count), n(n_), size(size_), cell(first)
     {
         // Solids reach into the next image, rarely further.
         if (cell < -n || cell >= 2 * n) {
             cell = wrap(cell, n);
-            image = (i0 - cell) / n;
+            image = (first - cell) / n;
         } else if (cell < 0) {
             cell += n;
             image = -1;
@@ -38,51 +38,71 @@ struct Walk {
             cell -= n;
             image = 1;
         }
-        rest = size - 1 - cell % size;
     }
+    int unit() const { return cell / size; }
+    /// Cells from this one on in its unit and image.
+    int count() const { return std::min({left, size - cell % size, n - cell}); }
     void next()
     {
-        if (++cell == n) {
-            cell = 0;
-            ++image;
-            unit += n > size;
-            rest = size - 1;
-        } else if (rest-- == 0) {
-            ++unit;
-            rest = size - 1;
+        const int cells = count();
+        left -= cells;
+        cell += cells;
+        if (cell < n) {
+            ++passed;
+            return;
         }
+        cell = 0;
+        ++image;
+        passed += n > size;
     }
 };
 
-/// Units in which `count` cells from i0 on lie.
-int units_along(int i0, int count, int n, int size)
+/// Units in which `count` cells from `first` on lie.
+int units_along(int first, int count, int n, int size)
 {
-    Walk walk(i0, n, size);
-    for (int i = 1; i < count; ++i) walk.next();
-    return std::min(walk.unit + 1, (n + size - 1) / size);
+    int units = 1;
+    for (Walk walk(first, count, n, size); walk.left > 0; walk.next()) units = walk.passed + 1;
+    return std::min(units, (n + size - 1) / size);
 }
 
-/// The first n cells of a span; leaves the others, from x = 0 on.
-Piece cut(Piece& span)
+/// Of units that a solid meets again behind a periodic face the sums are the same.
+int own_unit(int unit, int units) { return unit < units ? unit : unit % units; }
+
+/// Into which periodic faces cut a span.
+inline std::uint32_t pieces_of(const Span& span, int nx)
 {
-    Piece first = span;
-    const int n = first.n, full = std::clamp<int>(n - span.before, 0, span.full);
-    first.before = static_cast<std::uint8_t>(std::min<int>(span.before, n));
+    if (span.x0 >= 0 && span.x0 + span.n <= nx) return 1;
+    return (wrap(span.x0, nx) + span.n + nx - 1) / nx;
+}
+
+/// The first n cells of a piece, or all; leaves the others, from x = 0 on.
+Piece cut(Piece& piece, int n)
+{
+    Piece first = piece;
+    first.n = std::min(n, piece.n);
+    const int full = std::clamp<int>(first.n - piece.before, 0, piece.full);
+    first.before = static_cast<std::uint8_t>(std::min<int>(piece.before, first.n));
     first.full = static_cast<std::uint16_t>(full);
-    span.fractions += n - full;
-    span.before -= first.before;
-    span.full -= first.full;
-    span.x0 = 0;
+    piece.fractions += first.n - full;
+    piece.before -= first.before;
+    piece.full -= first.full;
+    piece.n -= first.n;
+    piece.x0 = 0;
     return first;
 }
 
 /// Asks for memory that will be read or written soon: what solids have of their own lies scattered, far from the caches.
 template <class T>
+void prefetch(const T* begin, const T* end)
+{
+    for (auto line = reinterpret_cast<const char*>(begin); line < reinterpret_cast<const char*>(end);
+         line += kCacheLine)
+        __builtin_prefetch(line);
+}
+template <class T>
 void prefetch(const std::vector<T>& list)
 {
-    const char* const begin = reinterpret_cast<const char*>(list.data());
-    const char* const end = begin + list.size() * sizeof(T);
-    for (const char* line = begin; line < end; line += kCacheLine) __builtin_prefetch(line);
+    prefetch(list.data(), list.data() + list.size());
 }
 
 }  // namespace
@@ -103,7 +123,8 @@ SolidMap::SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& p
     , thicken_(thicken)
     , units_(cells[1], cells[2])
     , pores_(cells, periodic, mirrors)
-    , row_begin_(static_cast<std::size_t>(cells[1]) * cells[2] + 1, 0)
+    , row_begin_(static_cast<std::size_t>(cells[1]) * cells[2], 0)
+    , row_end_(row_begin_)
 {
 }
 
@@ -207,11 +228,10 @@ void SolidMap::mark_walls()
         solid.bounce.clear();
         if (solid.solid.geometry.shape != Shape::box || !solid.whole_cells) continue;
         solid.bounce.assign(solid.fractions.size(), 0);
-        for (std::size_t i = 0; i + 1 < solid.spans.size(); ++i) {
-            const Span& span = solid.spans[i];
-            const auto n = static_cast<int>(solid.spans[i + 1].fractions - span.fractions);  // all stored in a box
+        for (std::size_t i = 0; i < solid.spans.size(); ++i) {
+            const Span& span = solid.spans[i];  // all fractions of a box are stored
             const int y = solid.y0 + static_cast<int>(i) % solid.ny, z = solid.z0 + static_cast<int>(i) / solid.ny;
-            for (int x = 0; x < n; ++x)
+            for (int x = 0; x < span.n; ++x)
                 solid.bounce[span.fractions + x] =
                     solid.fractions[span.fractions + x] == 1 && walls.contain(solid.solid, {span.x0 + x, y, z});
         }
@@ -257,23 +277,24 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, CutCells& cut,
     solid.ny = count[1];
     solid.z0 = first[2];
     solid.nz = count[2];
-    solid.spans.resize(static_cast<std::size_t>(solid.ny) * solid.nz + 1);
+    solid.spans.resize(static_cast<std::size_t>(solid.ny) * solid.nz);
     Span* span = solid.spans.data();
     cut.clear();
     std::uint32_t fractions = kBlock;
+    solid.pieces = 0;
     const Vec3 r = Vec3{first[0] + 0.5, first[1] + 0.5, first[2] + 0.5} - geometry.centre;
     for (int k = 0; k < count[2]; ++k)
         for (int j = 0; j < count[1]; ++j) {
             const RowEnds ends = stored_ends(geometry.shape, fraction, j, k);
             const int before = ends.full_begin - ends.begin, full = ends.full_end - ends.full_begin,
                       after = ends.end - ends.full_end;
-            *span++ = {first[0] + ends.begin, fractions, static_cast<std::uint8_t>(before),
-                       static_cast<std::uint16_t>(full)};
+            *span++ = {first[0] + ends.begin, ends.end - ends.begin, fractions, static_cast<std::uint16_t>(full),
+                       static_cast<std::uint8_t>(before)};
             if (ends.begin == ends.end) continue;
+            solid.pieces += pieces_of(span[-1], n_[0]);
             cut.add({fraction.row(j, k) + ends.begin, before, full, after, {r[0] + ends.begin, r[1] + j, r[2] + k}});
             fractions += before + after;
         }
-    *span = {0, fractions, 0, 0};
     fractions += kBlock;
     cut.gather();
     solid.filled = solid.opposite.empty() ? 0 : cut.thicken(geometry.radius, solid.opposite);
@@ -317,83 +338,85 @@ void SolidMap::measure(MappedSolid& solid, const SolidFraction& fraction, bool l
     solid.volume = lone_sphere ? whole - outside : inside;
 }
 
-/// Calls body(row, piece, wherein x0 and n are still those of the span) for all spans with cells in planes from first to end.
+/// Calls body(row, span, row as the solid sees it) for all spans with cells in the rows visited.
 template <class Body>
-void SolidMap::for_spans(int first_plane, int end_plane, Body body) const
+void SolidMap::for_spans(const std::vector<Visit>& visits, Body body) const
 {
-    // Of units that a solid meets again behind a periodic face the sums are the same.
-    const auto own = [](int unit, int units) { return unit < units ? unit : unit % units; };
-    const auto may_meet = [&](const MappedSolid& solid) {
-        const int end = solid.z0 + solid.nz;
-        return solid.z0 < 0 || end > n_[2] || (solid.z0 < end_plane && end > first_plane);
-    };
-    for (std::size_t s = 0; s < solids_.size(); ++s) {
-        const MappedSolid& solid = solids_[s];
-        if (s + 1 < solids_.size() && may_meet(solids_[s + 1])) lbm::prefetch(solids_[s + 1].spans);
-        if (!may_meet(solid)) continue;
-        Walk z(solid.z0, n_[2], units_.planes);
-        for (int k = 0; k < solid.nz; ++k, z.next()) {
-            if (z.cell < first_plane || z.cell >= end_plane) continue;
-            const int units_before = own(z.unit, solid.units_z) * solid.units_y;
-            const std::size_t plane = static_cast<std::size_t>(z.cell) * n_[1];
-            Walk y(solid.y0, n_[1], units_.rows);
-            const Span* span = solid.spans.data() + static_cast<std::size_t>(k) * solid.ny;
-            for (int j = 0; j < solid.ny; ++j, ++span, y.next()) {
-                const auto n = static_cast<std::int32_t>(span[1].fractions - span->fractions) + span->full;
-                if (n == 0) continue;
-                const int unit = units_before + own(y.unit, solid.units_y);
-                body(plane + y.cell, Piece{static_cast<std::int32_t>(s),
-                                           span->fractions,
-                                           span->x0,
-                                           n,
-                                           {0, static_cast<std::int8_t>(y.image), static_cast<std::int8_t>(z.image)},
-                                           static_cast<std::uint8_t>(unit),
-                                           span->before,
-                                           span->full});
-            }
+    constexpr std::ptrdiff_t kAhead = 3;
+    const Visit* const end = visits.data() + visits.size();
+    for (const Visit* visit = visits.data(); visit != end; ++visit) {
+        if (end - visit > kAhead)
+            lbm::prefetch(visit[kAhead].spans, visit[kAhead].spans + visit[kAhead].planes * visit[kAhead].next_plane);
+        for (int k = 0; k < visit->planes; ++k) {
+            const Span* const span = visit->spans + static_cast<std::ptrdiff_t>(k) * visit->next_plane;
+            const std::size_t row = visit->row + static_cast<std::size_t>(k) * n_[1];
+            for (int j = 0; j < visit->rows; ++j)
+                if (span[j].n > 0) body(row + j, span[j], visit->seen);
         }
     }
 }
 
-/// Sorts the spans by row, cut at periodic faces; within a row they stand in the order of the solids. Slabs of planes are sorted side by side.
+/// Sorts the spans by row, cut at periodic faces; within a row they stand in the order of the solids.
 void SolidMap::list_rows()
 {
+    std::size_t pieces = 0;
     sums_begin_.resize(solids_.size() + 1);
     sums_begin_[0] = 0;
-    for (std::size_t s = 0; s < solids_.size(); ++s)
-        sums_begin_[s + 1] = sums_begin_[s] + solids_[s].units_y * solids_[s].units_z;
+    visits_.resize(units_.count());
+    for (auto& visits : visits_) visits.clear();
+    for (std::size_t s = 0; s < solids_.size(); ++s) {
+        const MappedSolid& solid = solids_[s];
+        pieces += solid.pieces;
+        sums_begin_[s + 1] = sums_begin_[s] + solid.units_y * solid.units_z;
+        for (Walk z(solid.z0, solid.nz, n_[2], units_.planes); z.left > 0; z.next())
+            for (Walk y(solid.y0, solid.ny, n_[1], units_.rows); y.left > 0; y.next()) {
+                const int unit = own_unit(z.passed, solid.units_z) * solid.units_y + own_unit(y.passed, solid.units_y);
+                visits_[z.unit() * units_.along_y() + y.unit()].push_back(
+                    {{static_cast<std::int32_t>(s),
+                      {0, static_cast<std::int8_t>(y.image), static_cast<std::int8_t>(z.image)},
+                      static_cast<std::uint8_t>(unit)},
+                     solid.spans.data() + (solid.nz - z.left) * solid.ny + (solid.ny - y.left),
+                     y.count(),
+                     z.count(),
+                     solid.ny,
+                     static_cast<std::uint32_t>(z.cell * n_[1] + y.cell)});
+            }
+    }
     sums_.resize(sums_begin_.back());
+    pieces_.resize(pieces);
+    std::atomic<std::uint32_t> listed{0};
+#pragma omp parallel for schedule(dynamic) if (solids_.size() > 8)
+    for (int unit = 0; unit < units_.count(); ++unit) list_rows_of(unit, listed);
+}
 
-    constexpr int kSlabs = 16;
-    const auto for_slabs = [&](auto&& body) {
-#pragma omp parallel for schedule(dynamic)
-        for (int slab = 0; slab < kSlabs; ++slab) for_spans(n_[2] * slab / kSlabs, n_[2] * (slab + 1) / kSlabs, body);
-    };
-    std::fill(row_begin_.begin(), row_begin_.end(), 0);
+/// @param listed  pieces, of this and other units
+void SolidMap::list_rows_of(int unit, std::atomic<std::uint32_t>& listed)
+{
+    for_rows_of(units_, unit, [&](std::size_t row, int, int) { row_end_[row] = 0; });
     const int nx = n_[0];
-    const auto is_inside = [nx](const Piece& piece) { return piece.x0 >= 0 && piece.x0 + piece.n <= nx; };
-    for_slabs([&](std::size_t row, const Piece& span) {
-        if (is_inside(span)) ++row_begin_[row + 1];
-        else row_begin_[row + 1] += (wrap(span.x0, nx) + span.n + nx - 1) / nx;
+    std::uint32_t count = 0;
+    for_spans(visits_[unit], [&](std::size_t row, const Span& span, const RowOfSolid&) {
+        const std::uint32_t pieces = pieces_of(span, nx);
+        row_end_[row] += pieces;
+        count += pieces;
     });
-    for (std::size_t r = 1; r < row_begin_.size(); ++r) row_begin_[r] += row_begin_[r - 1];
-    pieces_.resize(row_begin_.back());
-    row_next_.assign(row_begin_.begin(), row_begin_.end() - 1);
-    for_slabs([&](std::size_t row, Piece piece) {
-        if (is_inside(piece)) {
-            pieces_[row_next_[row]++] = piece;
+    std::uint32_t next = listed.fetch_add(count);
+    for_rows_of(units_, unit, [&](std::size_t row, int, int) {
+        row_begin_[row] = next;
+        next += std::exchange(row_end_[row], next);
+    });
+    for_spans(visits_[unit], [&](std::size_t row, const Span& span, const RowOfSolid& seen) {
+        Piece* piece = &pieces_[row_end_[row]];
+        if (span.x0 >= 0 && span.x0 + span.n <= nx) {
+            static_cast<Span&>(*piece) = span;
+            static_cast<RowOfSolid&>(*piece) = seen;
+            ++row_end_[row];
             return;
         }
-        int rest = piece.n;
-        const int x0 = wrap(piece.x0, nx);
-        piece.image[0] = static_cast<std::int8_t>((piece.x0 - x0) / nx);
-        piece.x0 = x0;
-        while (rest > 0) {
-            piece.n = std::min(rest, nx - piece.x0);
-            rest -= piece.n;
-            pieces_[row_next_[row]++] = cut(piece);
-            ++piece.image[0];
-        }
+        Piece rest{span, seen};
+        rest.x0 = wrap(span.x0, nx);
+        rest.image[0] = static_cast<std::int8_t>((span.x0 - rest.x0) / nx);
+        for (; rest.n > 0; ++rest.image[0], ++row_end_[row]) *piece++ = cut(rest, nx - rest.x0);
     });
 }
 
@@ -427,8 +450,9 @@ void SolidMap::tell_rows()
 std::size_t SolidMap::memory_bytes() const
 {
     const auto bytes_of = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
-    std::size_t bytes = bytes_of(row_begin_) + bytes_of(row_next_) + bytes_of(pieces_) + bytes_of(solids_) +
+    std::size_t bytes = bytes_of(row_begin_) + bytes_of(row_end_) + bytes_of(pieces_) + bytes_of(solids_) +
                         bytes_of(row_solids_) + bytes_of(sums_begin_) + bytes_of(sums_);
+    for (const auto& visits : visits_) bytes += bytes_of(visits);
     for (const MappedSolid& s : solids_)
         bytes += bytes_of(s.spans) + bytes_of(s.fractions) + bytes_of(s.bounce) + bytes_of(s.opposite);
     return bytes;

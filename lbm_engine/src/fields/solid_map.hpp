@@ -9,6 +9,7 @@
 #include "physics/solid_fraction.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -41,20 +42,25 @@ struct RowUnits {
     RowUnits(int ny_, int nz_);
     int along_y() const noexcept { return (ny + rows - 1) / rows; }
     int along_z() const noexcept { return (nz + planes - 1) / planes; }
+    int count() const noexcept { return along_y() * along_z(); }
 };
 
-/// Calls body(row, y, z) for all rows; to be called by all threads of a team, which share the units.
+/// Calls body(row, y, z) for all rows of a unit.
+template <class Body>
+void for_rows_of(const RowUnits& units, int unit, Body body)
+{
+    const int along_y = units.along_y(), y0 = unit % along_y * units.rows, z0 = unit / along_y * units.planes;
+    for (int z = z0; z < std::min(z0 + units.planes, units.nz); ++z)
+        for (int y = y0; y < std::min(y0 + units.rows, units.ny); ++y)
+            body(static_cast<std::size_t>(z) * units.ny + y, y, z);
+}
+
+/// The same for all rows; to be called by all threads of a team, which share the units.
 template <class Body>
 void for_rows(const RowUnits& units, Body body)
 {
-    const int along_y = units.along_y(), count = along_y * units.along_z();
 #pragma omp for schedule(static)
-    for (int unit = 0; unit < count; ++unit) {
-        const int y0 = unit % along_y * units.rows, z0 = unit / along_y * units.planes;
-        for (int z = z0; z < std::min(z0 + units.planes, units.nz); ++z)
-            for (int y = y0; y < std::min(y0 + units.rows, units.ny); ++y)
-                body(static_cast<std::size_t>(z) * units.ny + y, y, z);
-    }
+    for (int unit = 0; unit < units.count(); ++unit) for_rows_of(units, unit, body);
 }
 
 /**
@@ -90,7 +96,7 @@ public:
     /// The time step becomes s times what it was: so do velocities in lattice units.
     void scale_velocities(double s);
 
-    bool covers(std::size_t row) const noexcept { return !solids_.empty() && row_begin_[row] != row_begin_[row + 1]; }
+    bool covers(std::size_t row) const noexcept { return row_begin_[row] != row_end_[row]; }
 
     /// Asks memory for the fractions of a row, which lie scattered, solid by solid.
     void prefetch(std::size_t row) const noexcept;
@@ -105,22 +111,24 @@ public:
     std::size_t memory_bytes() const;
 
 private:
-    struct Span {
-        std::int32_t x0;          // not wrapped
-        std::uint32_t fractions;  // offset; those of the next span follow
-        std::uint8_t before;      // as in a Piece
-        std::uint16_t full;
-    };
     struct MappedSolid {
         LatticeSolid solid;
         double k = 0, volume = 0, filled = 0;
         int y0 = 0, ny = 0, z0 = 0, nz = 0;  // rows, not wrapped
         int units_y = 0, units_z = 0;        // of rows, that they lie in; at most all
         std::vector<Opposite> opposite;      // that leave a narrow pore
-        std::vector<Span> spans;             // ny * nz, and an end
+        std::vector<Span> spans;             // ny * nz, where x is not wrapped
         std::vector<double> fractions;       // a block of padding before and after those of the spans
+        std::size_t pieces = 0;              // spans that are not empty, cut at periodic faces
         bool whole_cells = false;
         std::vector<std::uint8_t> bounce;  // of a box along the lattice: whether a cell turns populations round
+    };
+    /// The rows of a solid that lie in a unit of rows: some of each of some planes.
+    struct Visit {
+        RowOfSolid seen;
+        const Span* spans;
+        std::int32_t rows, planes, next_plane;  // spans from one plane to the next
+        std::uint32_t row;                      // of the lattice, the first of them
     };
     std::vector<std::vector<int>> earlier_of_body(const std::vector<LatticeSolid>& solids) const;
     double k(const SolidGeometry& geometry) const;
@@ -130,9 +138,10 @@ private:
     RowEnds stored_ends(Shape shape, const SolidFraction& fraction, int j, int k) const;
     void measure(MappedSolid& solid, const SolidFraction& fraction, bool lone_sphere) const;
     void list_rows();
+    void list_rows_of(int unit, std::atomic<std::uint32_t>& listed);
     void tell_rows();
     template <class Body>
-    void for_spans(int first_plane, int end_plane, Body body) const;
+    void for_spans(const std::vector<Visit>& visits, Body body) const;
     PiecesOfRow pieces(std::size_t row) const noexcept;
     /// Whether a row or plane, not wrapped, is part of the box.
     bool is_inside(int i, int axis) const noexcept { return periodic_[axis] || (i >= 0 && i < n_[axis]); }
@@ -154,10 +163,10 @@ private:
     std::vector<CutCells> cut_cells_;              // the same
     std::vector<RowSolid> row_solids_;
     bool all_fixed_ = false;
-    std::vector<std::uint32_t> row_begin_;  // (ny * nz + 1)
-    std::vector<std::uint32_t> row_next_;   // while sorting
-    std::vector<Piece> pieces_;
-    std::vector<std::uint32_t> sums_begin_;  // for each solid
+    std::vector<std::vector<Visit>> visits_;          // for each unit, while sorting
+    std::vector<std::uint32_t> row_begin_, row_end_;  // for each row, among the pieces
+    std::vector<Piece> pieces_;                       // of each row side by side
+    std::vector<std::uint32_t> sums_begin_;           // for each solid
     std::vector<PieceSums> sums_;
 };
 

@@ -17,16 +17,23 @@ struct RowSolid {
 };
 
 /// Cells side by side in a row that a solid touches. Of its inside, where fractions are 1, most are not stored.
-struct Piece {
-    std::int32_t solid;
-    std::uint32_t
-        fractions;  ///< of the first cell among those of the solid; a block more may be read before and after the piece
+struct Span {
     std::int32_t x0, n;
-    std::int8_t image[3];  ///< of the lattice in which these cells lie as the solid's centre sees it
-    std::uint8_t unit;     ///< of rows, among those that the solid lies in: which of its sums
-    std::uint8_t before;   ///< cells with fractions before those without
-    std::uint16_t full;    ///< cells without: all 1
+    std::uint32_t
+        fractions;  ///< of the first cell among those of the solid; a block more may be read before and after the span
+    std::uint16_t full;   ///< cells without: all 1
+    std::uint8_t before;  ///< cells with fractions before those without
 };
+
+/// A row of the lattice as a solid in it sees it.
+struct RowOfSolid {
+    std::int32_t solid;
+    std::int8_t image[3];  ///< of the lattice in which its cells lie as the solid's centre sees it
+    std::uint8_t unit;     ///< of rows, among those that the solid lies in: which of its sums
+};
+
+/// A span, or a part of one, in a row of the lattice.
+struct Piece : Span, RowOfSolid {};
 
 /**
  * Sums over cells of a solid, eight lanes each: F, P, b and b r^2 in `plain`; rx F, rx Py, rx Pz in `x`; ry and rz times the plain ones. F is the solid

@@ -6,14 +6,14 @@ namespace lbm {
 
 PiecesOfRow SolidMap::pieces(std::size_t row) const noexcept
 {
-    return {pieces_.data() + row_begin_[row], pieces_.data() + row_begin_[row + 1], row_solids_.data(), n_,
-            static_cast<int>(row % n_[1]),    static_cast<int>(row / n_[1]),        all_fixed_};
+    return {pieces_.data() + row_begin_[row], pieces_.data() + row_end_[row], row_solids_.data(), n_,
+            static_cast<int>(row % n_[1]),    static_cast<int>(row / n_[1]),  all_fixed_};
 }
 
 void SolidMap::prefetch(std::size_t row) const noexcept
 {
-    if (row + 1 >= row_begin_.size()) return;
-    for (std::uint32_t p = row_begin_[row]; p < row_begin_[row + 1]; ++p) {
+    if (row == row_begin_.size()) return;
+    for (std::uint32_t p = row_begin_[row]; p < row_end_[row]; ++p) {
         const Piece& piece = pieces_[p];
         const double* const fractions = row_solids_[piece.solid].fractions + piece.fractions;
         const int stored = piece.n - piece.full;
