@@ -73,6 +73,14 @@ std::vector<std::string> words(const std::string& option, const std::string& lis
     return parts;
 }
 
+template <class... Value>
+std::string formatted(const char* format, Value... value)
+{
+    char text[256];
+    std::snprintf(text, sizeof(text), format, value...);
+    return text;
+}
+
 /// Spheres of about this diameter on a face-centred cubic lattice that fits the box, moved at random within their gaps.
 std::vector<Solid> spheres(int n, double diameter, double solid_fraction)
 {
@@ -80,6 +88,12 @@ std::vector<Solid> spheres(int n, double diameter, double solid_fraction)
     const int m = std::max(1, static_cast<int>(std::lround(n / std::cbrt(4 * volume / solid_fraction))));
     const double a = static_cast<double>(n) / m;
     const double R = 0.5 * std::cbrt(solid_fraction * a * a * a / 4 * 6 / std::numbers::pi);
+    if (R < kMinRadiusInCells) {
+        const double needed = m * 2 * kMinRadiusInCells * std::cbrt(4 * std::numbers::pi / 6 / solid_fraction);
+        throw ConfigError("--cells " + std::to_string(n) +
+                          ": too few for spheres of four cells or more at a solid fraction of " +
+                          formatted("%g", solid_fraction) + "; use at least " + formatted("%.0f", std::ceil(needed)));
+    }
     const double gap = a / std::numbers::sqrt2 - 2 * R;
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(-0.5, 0.5);
@@ -242,14 +256,6 @@ nlohmann::json measure(const BandwidthMeter& meter, Bench* reference, Bench& ben
 }
 
 nlohmann::json in_json(const Bandwidth& b) { return {{"copy", b.copy}, {"triad", b.triad}, {"in_place", b.in_place}}; }
-
-template <class... Value>
-std::string formatted(const char* format, Value... value)
-{
-    char text[256];
-    std::snprintf(text, sizeof(text), format, value...);
-    return text;
-}
 
 /// With solids; first in line is the fluid alone.
 std::vector<Run> runs(const BenchOptions& o, const std::string& storage, int cells, int threads)

@@ -20,6 +20,7 @@ def values_out_of_range_are_refused_at_construction():
             refused_at_construction("%s = " % name, **{name: value})
     refused_at_construction("maxMach = ", maxMach=NAN)
     refused_at_construction("magicParameter = -1", magicParameter=-1)
+    refused_at_construction("magicParameter = 2: must be between 0.01 and 0.5", magicParameter=2)
     refused_at_construction("lubricationRoughness = 0: must be between", lubricationRoughness=0)
     refused_at_construction("gravity = ", gravity=(0, 0, NAN))
     refused_at_construction("acceleration = ", acceleration=(0, 0, math.inf))

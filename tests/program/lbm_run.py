@@ -315,6 +315,10 @@ class Messages(unittest.TestCase):
             self.assertEqual(done.returncode, 2)
             self.assertIn(option, done.stderr)
             self.assertIn(text, done.stderr)
+        small = [PROGRAM, "bench", "--cells", "8", "--cases", "dilute", "--threads", "1", "--seconds", "0.01"]
+        done = subprocess.run(small, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--cells 8: too few for spheres of four cells or more at a solid fraction of 0.02; use at least 19", done.stderr)
 
     def test_values_are_checked(self):
         self.refused("dx = -1", array(domain={"cells": [8, 8, 8], "dx": -1}))

@@ -109,7 +109,7 @@ class Allocations : public CppUnit::TestFixture {
                 fluid.velocity_field();
             } catch (const ConfigError& error) {
                 said = error.what();
-                test::assert_says(said, "GB of memory, more than there is");
+                test::assert_says(said, " GB are available; use a larger dx");
             } catch (const RunError& error) {
                 said = error.what();
                 test::assert_says(said, "no memory is left for");

@@ -46,6 +46,7 @@ class BadInput : public CppUnit::TestFixture {
         assert_says(config_error([](auto& c) { c.tau = kNaN; }), "tau = nan");
         assert_says(config_error([](auto& c) { c.tau = 21; }), "tau = 21");
         assert_says(config_error([](auto& c) { c.magic_parameter = -0.1; }), "magic_parameter = -0.1");
+        assert_says(config_error([](auto& c) { c.magic_parameter = 0.51; }), "must lie between 0.01 and 0.5");
         assert_says(config_error([](auto& c) { c.cells[1] = 0; }), "cells along y = 0");
         assert_says(config_error([](auto& c) { c.cells = {2000000, 2000, 2000}; }), "use a larger dx");
         assert_says(config_error([](auto& c) { c.gravity[2] = kNaN; }), "gravity = ");

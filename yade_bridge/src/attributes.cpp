@@ -62,8 +62,9 @@ const std::vector<Attribute>& attributes()
                           "viscosity). NaN, the default: chosen so that this is a whole number of steps of O.dt where "
                           "the limits allow, and chosen again "
                           "where O.dt changes by more than a quarter."),
-        YADELBM_ATTRIBUTE("magicParameter", magic_parameter, false,
-                          "Lambda of the two relaxation times [-], > 0. NaN, the default: the scheme's own, 1/8."),
+        YADELBM_ATTRIBUTE(
+            "magicParameter", magic_parameter, false,
+            "Lambda of the two relaxation times [-], 0.01 to 0.5. NaN, the default: the scheme's own, 1/8."),
         YADELBM_ATTRIBUTE("inertia", inertia, false,
                           "False: Stokes flow, the quadratic terms are dropped. Default True."),
         YADELBM_ATTRIBUTE(

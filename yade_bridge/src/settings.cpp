@@ -56,7 +56,10 @@ void check_numbers(const Settings& s, bool complete)
     require_positive("viscosity", s.viscosity, "Pa s, dynamic", complete);
     require_positive("maxMach", s.max_mach, "-", true);
     require_positive("accuracy", s.accuracy, "-", true);
-    require_positive("magicParameter", s.magic_parameter, "-; NaN: the scheme's own", false);
+    if (s.magic_parameter < lbm::kMinLambda || s.magic_parameter > lbm::kMaxLambda)
+        refuse("magicParameter", text(s.magic_parameter),
+               "must be between " + text(lbm::kMinLambda) + " and " + text(lbm::kMaxLambda) +
+                   ", beyond which drag is off by more than 2 %; NaN: the scheme's own");
     if (!(s.lubrication_roughness >= lbm::kMinRoughness && s.lubrication_roughness <= lbm::kMaxRoughness))
         refuse("lubricationRoughness", text(s.lubrication_roughness),
                "must be between " + text(lbm::kMinRoughness) + " and " + text(lbm::kMaxRoughness) +

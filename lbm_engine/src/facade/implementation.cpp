@@ -2,6 +2,7 @@
 
 #include "facade/stopwatch.hpp"
 #include "facade/validate.hpp"
+#include "fields/available_memory.hpp"
 #include "fields/rescale.hpp"
 #include "lattice/message.hpp"
 
@@ -65,6 +66,15 @@ FluidConfig validated(const FluidConfig& config)
     return config;
 }
 
+double bytes_of_populations(const FluidConfig& c)
+{
+    const bool single = c.storage == Storage::single_precision;
+    const std::size_t bytes = single ? sizeof(float) : sizeof(double);
+    const std::size_t slots =
+        c.lattice == Lattice::d3q27 ? Layout<D3Q27>(c.cells, bytes).slots : Layout<D3Q19>(c.cells, bytes).slots;
+    return static_cast<double>(slots * bytes);
+}
+
 template <class L>
 AnyPopulations make_populations_of(const FluidConfig& c)
 {
@@ -74,17 +84,9 @@ AnyPopulations make_populations_of(const FluidConfig& c)
 
 AnyPopulations make_populations(const FluidConfig& c)
 {
+    if (bytes_of_populations(c) > available_memory()) throw std::bad_alloc();  // the system would kill who takes it
     const ThreadCount threads(c);
     return c.lattice == Lattice::d3q27 ? make_populations_of<D3Q27>(c) : make_populations_of<D3Q19>(c);
-}
-
-double bytes_of_populations(const FluidConfig& c)
-{
-    const bool single = c.storage == Storage::single_precision;
-    const std::size_t bytes = single ? sizeof(float) : sizeof(double);
-    const std::size_t slots =
-        c.lattice == Lattice::d3q27 ? Layout<D3Q27>(c.cells, bytes).slots : Layout<D3Q19>(c.cells, bytes).slots;
-    return static_cast<double>(slots * bytes);
 }
 
 /// Faces that are mirrors of the flow (domain/faces.hpp).
@@ -108,7 +110,8 @@ try : config(validated(c)), dt(fluid_time_step(c.tau, c.dx, c.viscosity / c.dens
     start_at(mean_face_pressure(lattice_faces(c, units)), (1 / units.velocity) * c.initial_velocity);
 } catch (const std::bad_alloc&) {
     throw ConfigError(message("cells = ", c.cells[0], " x ", c.cells[1], " x ", c.cells[2], ": need ",
-                              bytes_of_populations(c) / 1e9, " GB of memory, more than there is; use a larger dx",
+                              bytes_of_populations(c) / 1e9, " GB of memory, ", available_memory() / 1e9,
+                              " GB are available; use a larger dx",
                               c.storage == Storage::single_precision ? "" : ", or single storage"));
 }
 

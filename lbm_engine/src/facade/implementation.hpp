@@ -91,6 +91,12 @@ struct Fluid::Implementation {
     [[noreturn]] void throw_out_of_memory(const char* asked) const;
 
     void start_at(double drho, const Vec3& u);
+    /// sum f c of a cell where u = 0: half of the drive short
+    Vec3 momentum_at_rest() const
+    {
+        const auto& F = collision.body_force;
+        return {-0.5 * F[0], -0.5 * F[1], -0.5 * F[2]};
+    }
     void place(const std::vector<Solid>& now);
     /// From one place of a solid to the next, to the nearest image [m].
     Vec3 way(const Solid& before, const Solid& now) const;

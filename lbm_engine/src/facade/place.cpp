@@ -104,9 +104,8 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
     if (!same_ids) {
         std::vector<LoadLedger> kept(now.size());
         std::vector<Motion> motions(now.size());
-        const bool at_rest =  // without momentum anywhere
-            steps == 0 && config.initial_velocity == Vec3{} && config.acceleration == Vec3{};
-        if (any_new && at_rest) map.clear_sums();
+        if (any_new && steps == 0 && config.initial_velocity == Vec3{})
+            sum_inside(momentum_at_rest(), collision, map, config.cells[0]);
         else if (any_new)
             std::visit([&](const auto& f) { sum_inside(f, collision, config.inertia, map, &CellState::momentum); },
                        populations);

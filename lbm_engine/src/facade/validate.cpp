@@ -129,7 +129,9 @@ void validate(const FluidConfig& c)
     if (!(c.tau >= kMinTau && c.tau <= kMaxTau))
         throw ConfigError(message("tau = ", c.tau, ": must lie between ", kMinTau, " and ", kMaxTau,
                                   "; dt = (tau - 1/2) dx^2 / (3 nu)"));
-    if (!std::isnan(c.magic_parameter)) require_positive("magic_parameter", c.magic_parameter, "-");
+    if (c.magic_parameter < kMinLambda || c.magic_parameter > kMaxLambda)
+        throw ConfigError(message("magic_parameter = ", c.magic_parameter, ": must lie between ", kMinLambda, " and ",
+                                  kMaxLambda, ", beyond which drag is off by more than 2 %; leave it out for 1/8"));
     if (c.collision == Collision::bgk && !std::isnan(c.magic_parameter))
         throw ConfigError(message("magic_parameter = ", c.magic_parameter,
                                   ": with one relaxation time (bgk) it is (tau - 1/2)^2; leave it out or use trt"));

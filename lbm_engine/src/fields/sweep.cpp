@@ -68,12 +68,11 @@ FlowWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bo
     return all;
 }
 
-template <class L, class T>
-void sum_inside(const Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
-                Vec3 CellState::*momentum)
+/// @param read  called as read(y, z, cells, answer) for rows with solids; calls answer(x, momentum inside the solids) for their cells
+template <class Read>
+static void sum_rows(SolidMap& solids, int nx, Read read)
 {
     solids.clear_sums();
-    const int nx = populations.layout.n[0];
     FirstException out_of_memory;
 #pragma omp parallel
     if (out_of_memory.all_succeed([&] { scratch_row(nx); })) {
@@ -82,17 +81,38 @@ void sum_inside(const Populations<L, T>& populations, const CollisionParameters&
             if (!solids.covers(row)) return;
             solids.saturate(row, cells);
             std::fill(cells.column(RowSaturation::kForce), cells.column(RowSaturation::kColumns), 0.0);
-            const auto answer = [&](const CellState& cell) {
-                const double fraction = cells.column(RowSaturation::kFraction)[cell.x];
-                cells.column(RowSaturation::kShare)[cell.x] = fraction > 0 ? 1 / fraction : 0;
-                for (int d = 0; d < 3; ++d)
-                    cells.column(RowSaturation::kMomentum + d)[cell.x] = cell.epsilon * (cell.*momentum)[d];
-            };
-            read_row(populations, p, inertia, y, z, cells, answer);
+            read(y, z, cells, [&](int x, const Vec3& momentum) {
+                const double fraction = cells.column(RowSaturation::kFraction)[x];
+                cells.column(RowSaturation::kShare)[x] = fraction > 0 ? 1 / fraction : 0;
+                for (int d = 0; d < 3; ++d) cells.column(RowSaturation::kMomentum + d)[x] = momentum[d];
+            });
             solids.collect(row, cells);
         });
     }
     out_of_memory.rethrow();
+}
+
+template <class L, class T>
+void sum_inside(const Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
+                Vec3 CellState::*momentum)
+{
+    sum_rows(solids, populations.layout.n[0], [&](int y, int z, const RowSaturation& cells, const auto& answer) {
+        read_row(populations, p, inertia, y, z, cells,
+                 [&](const CellState& cell) { answer(cell.x, cell.epsilon * (cell.*momentum)); });
+    });
+}
+
+void sum_inside(const Vec3& momentum, const CollisionParameters& p, SolidMap& solids, int nx)
+{
+    constexpr double kAtRest[3] = {};
+    const bool whole_cells = p.scheme == Scheme::bounce_back;
+    sum_rows(solids, nx, [&](int, int, const RowSaturation& cells, const auto& answer) {
+        for (int x = 0; x < nx; ++x) {
+            if (cells.covered[x / kBlock] == RowSaturation::kFluid) continue;
+            const double fraction = cells.column(RowSaturation::kFraction)[x];
+            answer(x, mixture(fraction, 0.0, kAtRest, whole_cells).saturation.epsilon * momentum);
+        }
+    });
 }
 
 #define LBM_SWEEP(L, T)                                                                                                \

@@ -24,5 +24,11 @@ FlowWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bo
 template <class L, class T>
 void sum_inside(const Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
                 Vec3 CellState::*momentum);
+/**
+ * The same of a fluid that is alike everywhere, which need not be looked at.
+ * @param momentum  of each cell
+ * @param nx        cells along x
+ */
+void sum_inside(const Vec3& momentum, const CollisionParameters& p, SolidMap& solids, int nx);
 
 }  // namespace lbm
