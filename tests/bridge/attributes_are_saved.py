@@ -1,6 +1,7 @@
 import math
 import os
 import tempfile
+import warnings
 
 from claims import *
 
@@ -114,7 +115,11 @@ def loaded_fluid_starts_from_rest():
     O.loadTmp()
     fluid = O.engines[3]
     check(fluid.fluidSteps == 0, "%d fluid steps after loading" % fluid.fluidSteps)
-    O.run(20, True)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        O.run(20, True)
+    said = [str(warning.message) for warning in caught]
+    check(any("goes on at step 20 with a fluid at rest" in text for text in said), "no warning: %s" % said)
     check(fluid.fluidSteps > 0 and fluid.averageVelocity()[0] > 0, "loaded fluid does not run")
 
 

@@ -250,6 +250,37 @@ def spheres_that_overlap_are_pointed_out():
     check("share" not in str(fluid.plan()), "warning for a clump")
 
 
+def shapes_that_the_fluid_does_not_see_are_pointed_out():
+    fluid = one_sphere()
+    for axis, height in ((0, 0.0), (1, 12e-3)):  # at the faces of the box, as walls of the grains
+        O.bodies.append(utils.wall(height, axis=axis))
+    check("does not see" not in str(fluid.plan()), "warning for walls at faces: %s" % fluid.plan())
+    O.bodies.append(utils.wall(6e-3, axis=2))
+    O.bodies.append(utils.facet([(3e-3, 3e-3, 3e-3), (9e-3, 3e-3, 3e-3), (3e-3, 9e-3, 3e-3)]))
+    for text in ("Bodies of shape Wall stand in the fluid (1, the first is 3)", "Facet stand in the fluid (1, the first is 4)"):
+        check(text in str(fluid.plan()), "no warning: %s" % fluid.plan())
+    fluid.ids = [0]
+    check("does not see" not in str(fluid.plan()), "warning for bodies that are not chosen")
+
+
+def a_body_that_is_moved_without_a_velocity_is_pointed_out():
+    one_sphere((16, 12, 12), tau=0.6)
+    O.dt = fluid_step(0.6)
+    body = O.bodies[0]
+
+    def warned(velocity):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            for _ in range(8):
+                body.state.pos += Vector3(2e-5, 0, 0)
+                body.state.vel = velocity
+                O.step()
+        return sum("Body 0 is moved from step to step and has no velocity" in str(warning.message) for warning in caught)
+
+    check(warned((6e-3, 0, 0)) == 0, "warning for a body with a velocity")
+    check(warned((0, 0, 0)) == 1, "not said once")
+
+
 def too_fast_for_the_lattice_is_refused_before_the_run():
     fluid = one_sphere(tau=0.6)
     O.bodies[0].state.vel = (100, 0, 0)
@@ -409,6 +440,8 @@ prove(
     more_threads_than_processors_are_not_used,
     bodies_outside_the_box_are_pointed_out,
     spheres_that_overlap_are_pointed_out,
+    shapes_that_the_fluid_does_not_see_are_pointed_out,
+    a_body_that_is_moved_without_a_velocity_is_pointed_out,
     densities_in_other_units_are_pointed_out,
     too_fast_for_the_lattice_is_refused_before_the_run,
     too_fast_for_the_lattice_stops_the_run,

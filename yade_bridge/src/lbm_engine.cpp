@@ -16,6 +16,7 @@
 #include <cmath>
 #include <filesystem>
 #include <thread>
+#include <utility>
 
 namespace yadelbm {
 namespace {
@@ -67,7 +68,7 @@ void LbmEngine::action()
             if (failure_.empty()) failure_ = error.what();
             throw;
         }
-        if (begins) warn();
+        if (!asked_.warnings.empty()) warn();
     } catch (...) {
         // O.run(n, True) starts the thread of this step and then waits for it; if the step has failed before the wait
         // begins, YADE overlooks the error and returns as if all were well
@@ -99,7 +100,8 @@ void LbmEngine::ask_python()
 void LbmEngine::warn()
 {
     const Interpreter held;
-    for (const std::string& warning : asked_.warnings) {
+    const std::vector<std::string> warnings = std::exchange(asked_.warnings, {});
+    for (const std::string& warning : warnings) {
         const std::string said = "LbmEngine: " + warning;
         if (PyErr_WarnEx(PyExc_RuntimeWarning, said.c_str(), 1) == 0) continue;
         PyErr_Clear();  // a filter makes warnings errors
@@ -155,6 +157,9 @@ void LbmEngine::forget()
     failure_.clear();
     last_iter_ = -1;
     replan_ = selection_changed_ = false;
+    solids_before_.clear();
+    times_moved_still_ = 0;
+    moved_still_ = -1;
 }
 
 void LbmEngine::start()
@@ -170,6 +175,10 @@ void LbmEngine::start()
     auto fluid = std::make_unique<lbm::Fluid>(fluid_config(settings_, plan.tau, threads_to_use()));
     const std::string overlap = overlap_warning(fluid->config(), solids_);
     if (!overlap.empty()) asked_.warnings.push_back(overlap);
+    if (loaded_ && scene->iter > 0)
+        asked_.warnings.push_back("the scene goes on at step " + std::to_string(scene->iter) +
+                                  " with a fluid at rest: files of scenes do not hold the fluid.");
+    loaded_ = false;
     schedule_ = Schedule(scene->dt, fluid->dt());
     fluid_ = std::move(fluid);
 }
@@ -251,7 +260,9 @@ void LbmEngine::step_fluid()
 {
     check_place(*scene, settings_);
     const Stopwatch in;
+    std::swap(solids_, solids_before_);
     read_solids(*scene, {settings_.mask, settings_.ids}, schedule_.lead(), solids_);
+    look_for_moves_without_velocity();
     check_cell(*scene, settings_, solids_);
     if (selection_changed_) check_selection(settings_, solids_);
     selection_changed_ = false;
@@ -275,6 +286,26 @@ void LbmEngine::step_fluid()
     held_.add(solids_, fluid_->loads(), fluid_->dt());
     schedule_.fluid_stepped();
     account(kLoadsOut, out.seconds(), 0);
+}
+
+/// Who sets state.pos in each step and not state.vel has a solid in another place whose surface does not drag the fluid. A body that is put elsewhere
+/// once is all right.
+void LbmEngine::look_for_moves_without_velocity()
+{
+    constexpr int kEnough = 3;
+    if (times_moved_still_ >= kEnough) return;
+    std::int64_t moved = -1;
+    for (std::size_t i = 0; i < std::min(solids_.size(), solids_before_.size()) && moved < 0; ++i) {
+        const lbm::Solid &now = solids_[i], &before = solids_before_[i];
+        const bool still = now.velocity == lbm::Vec3{} && before.velocity == lbm::Vec3{};
+        if (still && now.id == before.id && now.position != before.position) moved = now.id;
+    }
+    times_moved_still_ = moved >= 0 && moved == moved_still_ ? times_moved_still_ + 1 : moved >= 0;
+    moved_still_ = moved;
+    if (times_moved_still_ < kEnough) return;
+    asked_.warnings.push_back("Body " + std::to_string(moved) +
+                              " is moved from step to step and has no velocity: the fluid takes its surface to be at "
+                              "rest; give it state.vel, or let TranslationEngine move it.");
 }
 
 void LbmEngine::account(Part part, double seconds, long executions)

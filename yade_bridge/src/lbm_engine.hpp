@@ -97,6 +97,7 @@ private:
     void check_grain_step() const;
     double length_of_last_grain_step(const yade::Scene& now) const;
     void step_fluid();
+    void look_for_moves_without_velocity();
     void add_films();
     void account(Part part, double seconds, long executions);
     const lbm::Fluid& fluid(const char* asked) const;
@@ -113,10 +114,14 @@ private:
     Schedule schedule_;
     HeldLoads held_;
     std::vector<lbm::Solid> solids_;          // of the last fluid step
+    std::vector<lbm::Solid> solids_before_;   // of the one before it
     std::vector<lbm::Solid> surfaces_;        // of the films in the last grain step
     std::vector<lbm::SolidLoad> film_loads_;  // on them
     bool selection_changed_ = false;          // mask or ids, while the fluid exists
     bool replan_ = false;                     // O.dt has changed since the fluid's step was chosen
+    std::int64_t moved_still_ = -1;           // body that was elsewhere, without a velocity
+    int times_moved_still_ = 0;               // in so many fluid steps in turn
+    bool loaded_ = false;                     // from a file, and not begun since
     const yade::Scene* started_in_ = nullptr;
     long last_iter_ = -1;  // of the scene, at the last action
     double last_time_ = 0;

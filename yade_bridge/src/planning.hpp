@@ -45,7 +45,7 @@ std::string lubrication_law(const yade::Scene& scene);
 void check_lubrication(const Settings& settings, const std::string& law);
 
 /**
- * What in the scene is likely not meant, each a sentence: no body in the fluid's box, bodies that are too light, damping, another gravity, contacts that do not cross a periodic
+ * What in the scene is likely not meant, each a sentence: no body in the fluid's box, bodies that are too light or of a shape that the fluid does not see, damping, another gravity, contacts that do not cross a periodic
  * face, a time stepper behind the fluid. Asks Python: the interpreter must be held.
  */
 std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& settings,

@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace yadelbm {
 namespace {
@@ -69,6 +71,34 @@ void warn_about_light_bodies(const Settings& s, const std::vector<lbm::Solid>& s
                        " times the density of the fluid (" + text(ratio * s.density) +
                        " kg/m3): free bodies are not stable below " + text(kLightest) +
                        " times; is the density of its material in kg/m3?");
+}
+
+/// More than a cell from all faces of the fluid's box, as far as it is about these axes.
+bool is_well_inside(const Settings& s, const yade::Vector3r& position, const std::vector<int>& axes)
+{
+    return std::all_of(axes.begin(), axes.end(),
+                       [&](int d) { return position[d] > s.lower[d] + s.dx && position[d] < s.upper[d] - s.dx; });
+}
+
+/// Bodies that fluid flows through, though it may not be meant; those that were chosen by ids are.
+void warn_about_other_shapes(const yade::Scene& scene, const Settings& s, std::vector<std::string>& warnings)
+{
+    if (!s.ids.empty()) return;
+    std::map<std::string, std::pair<int, int>> found;  // of each shape: the first body, how many
+    for (const auto& body : scene.bodies->body) {
+        if (!body || !body->shape || !body->state || body->isClump()) continue;
+        if (s.mask != 0 && s.mask != -1 && (body->groupMask & s.mask) == 0) continue;
+        const std::string shape = body->shape->getClassName();
+        if (shape == "Sphere" || shape == "Box") continue;
+        std::vector<int> axes{0, 1, 2};
+        if (shape == "Wall") axes = {bp::extract<int>(bp::object(body).attr("shape").attr("axis"))};
+        if (!is_well_inside(s, body->state->se3.position, axes)) continue;
+        ++found.try_emplace(shape, body->id, 0).first->second.second;
+    }
+    for (const auto& [shape, bodies] : found)
+        warnings.push_back("Bodies of shape " + shape + " stand in the fluid (" + std::to_string(bodies.second) +
+                           ", the first is " + std::to_string(bodies.first) +
+                           "), which does not see them: only spheres and boxes are solids in it.");
 }
 
 /// Mass that answers to a force on the body; infinite for one that is blocked.
@@ -165,6 +195,7 @@ std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings
         warnings.push_back("No body is in the fluid's box, " + text(s.lower) + " to " + text(s.upper) +
                            " m: have they the same origin, and are all lengths in metres?");
     warn_about_light_bodies(s, solids, warnings);
+    warn_about_other_shapes(scene, s, warnings);
     bool behind_fluid = false;
     for (const auto& other : scene.engines) {
         if (!other) continue;

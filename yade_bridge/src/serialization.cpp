@@ -15,6 +15,7 @@ template <class Archive>
 void LbmEngine::serialize(Archive& archive, unsigned int)
 {
     using boost::serialization::make_nvp;
+    if constexpr (Archive::is_loading::value) loaded_ = true;
     archive& make_nvp("GlobalEngine", boost::serialization::base_object<yade::GlobalEngine>(*this));
     archive& make_nvp("lower", settings_.lower);
     archive& make_nvp("upper", settings_.upper);
