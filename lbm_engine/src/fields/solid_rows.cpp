@@ -2,6 +2,8 @@
 
 #include "fields/solid_map.hpp"
 
+#include "fields/populations.hpp"
+
 namespace lbm {
 
 PiecesOfRow SolidMap::pieces(std::size_t row) const noexcept
@@ -13,9 +15,15 @@ PiecesOfRow SolidMap::pieces(std::size_t row) const noexcept
 void SolidMap::prefetch(std::size_t row) const noexcept
 {
     if (row == row_begin_.size()) return;
+    const Piece* const next = pieces_.data() + row_end_[row];  // of the row after it, about as many
+    for (const Piece* line = next; line < next + (row_end_[row] - row_begin_[row]); line += kCacheLine / sizeof(Piece))
+        __builtin_prefetch(line);
     for (std::uint32_t p = row_begin_[row]; p < row_end_[row]; ++p) {
         const Piece& piece = pieces_[p];
-        const double* const fractions = row_solids_[piece.solid].fractions + piece.fractions;
+        const RowSolid& solid = row_solids_[piece.solid];
+        const PieceSums& sums = sums_[solid.sums + piece.unit];
+        for (const double* const lanes : {sums.plain, sums.x, sums.y, sums.z}) __builtin_prefetch(lanes, 1);
+        const double* const fractions = solid.fractions + piece.fractions;
         const int stored = piece.n - piece.full;
         // Blocks are read whole: up to kBlock - 1 beyond the end.
         for (int i = 0; i < stored + kBlock - 1; i += kBlock) __builtin_prefetch(fractions + i);
