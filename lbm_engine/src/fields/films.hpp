@@ -29,7 +29,8 @@ struct FilmLoad {
  * The thin films between spheres, and between spheres and no-slip faces: found by cell lists, and solved all at once.
  *
  * The films' impulses obey `impulse = - resistance (velocities at the end of the step)`, so that they take energy at any step, and keep momentum and angular
- * momentum of pairs. Order is fixed: the same bits with any number of threads. A step may be of any length; its units are those in which it is one.
+ * momentum of pairs. They act one after the other, part by part of the box; parts of one colour share no body, and may act at the same time. Parts and colours depend on
+ * the spheres alone: the same bits with any number of threads. A step may be of any length; its units are those in which it is one.
  */
 class Films {
 public:
@@ -48,7 +49,7 @@ public:
     const std::vector<FilmLoad>& solve(const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls,
                                        double viscosity);
 
-    std::size_t size() const noexcept { return films_.size(); }  ///< films in the last step
+    std::size_t size() const noexcept;  ///< films in the last step
     const std::array<Vec3, 6>& forces_on_walls() const noexcept { return wall_forces_; }
 
 private:
@@ -57,17 +58,28 @@ private:
         std::int32_t first, second;  // second >= 0: a sphere; otherwise -1 - face
         Vec3 shift;                  // of the second, to the image that is near
     };
-    struct Part {  // of the spheres, and their films with those that come after them
-        std::vector<Place> near, places;
+    struct Part {
+        std::vector<std::int32_t> spheres;
+        std::vector<Place> near, places;  // of their films, and spheres that come after them
         std::vector<Film> films;
+        double change2 = 0, all2 = 0;  // in the last sweep
+        std::array<Vec3, 6> wall_forces{};
+    };
+    struct Colour {  // parts, from begin to end
+        std::ptrdiff_t begin, end;
     };
 
     bool still_near(const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls);
     void search(const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls);
     void search_around(std::int32_t first, const std::vector<FilmSphere>& spheres,
                        const std::array<const Vec3*, 6>& walls, std::vector<Place>& near) const;
+    void divide(double range);
+    void colour(const std::vector<FilmSphere>& spheres);
     void make_films(const std::vector<FilmSphere>& spheres, double viscosity, Part& part) const;
     void gather_bodies(const std::vector<FilmSphere>& spheres, const std::array<const Vec3*, 6>& walls);
+    void relax(Part& part, bool backwards);
+    bool is_settled() const;
+    void add_loads(Part& part);
 
     std::array<int, 3> n_;
     std::array<bool, 3> periodic_;
@@ -82,11 +94,10 @@ private:
     };
     std::vector<Searched> searched_;
     std::array<bool, 6> searched_walls_{};
-    std::vector<Part> parts_;
+    std::vector<Part> parts_;  // colour by colour
+    std::vector<Colour> colours_;
 
-    std::vector<Vec3> centres_;  // not wrapped since the last search
-    std::vector<Place> places_;
-    std::vector<Film> films_;
+    std::vector<Vec3> centres_;          // not wrapped since the last search
     std::vector<FilmBody> bodies_;       // six walls, then the rigid bodies
     std::vector<std::int32_t> body_of_;  // for each sphere
     std::vector<FilmLoad> loads_;
