@@ -51,6 +51,22 @@ def an_engine_used_again_after_a_reset_starts_anew():
     check(fluid.fluidSteps == 3, "%d fluid steps" % fluid.fluidSteps)
 
 
+def time_set_to_zero_does_not_disturb_the_fluid():
+    """O.resetTime, as after a preparation; the same loads as without it."""
+    forces = []
+    for reset in (False, True):
+        O.reset()
+        fluid = one_sphere(tau=TAU, **DRIVE)
+        O.dt = STEP / 3
+        O.run(12, True)
+        if reset:
+            O.resetTime()
+        O.run(12, True)
+        check(fluid.fluidSteps == 8, "%d fluid steps" % fluid.fluidSteps)
+        forces.append(fluid.fluidForce(0))
+    check(forces[0] == forces[1], "other loads after O.resetTime: %s" % forces)
+
+
 def mask_and_ids_choose_bodies_at_any_time():
     fluid = one_sphere((12, 12, 24), radius=3e-3, tau=TAU, **DRIVE)
     O.bodies.append(sphere((6e-3, 6e-3, 4e-3), 2.5e-3, fixed=True, mask=4))
@@ -92,6 +108,7 @@ prove(
     bodies_may_come_and_go,
     a_body_made_again_or_moved_afar_gets_no_kick,
     an_engine_used_again_after_a_reset_starts_anew,
+    time_set_to_zero_does_not_disturb_the_fluid,
     mask_and_ids_choose_bodies_at_any_time,
     members_of_a_clump_are_in_the_fluid,
 )

@@ -77,8 +77,8 @@ void LbmEngine::action()
     }
 }
 
-/// In the first step, after O.reset, and in another scene.
-bool LbmEngine::begins() const { return !fluid_ || started_in_ != scene || scene->iter < last_iter_; }
+/// In the first step, after O.reset, and in another scene, which may lie where the old one did. O.resetTime is not one.
+bool LbmEngine::begins() const { return !fluid_ || started_in_ != scene || scene_is_there_.expired(); }
 
 /// Before the lock is taken: queries hold the interpreter while they wait for the lock.
 void LbmEngine::ask_python()
@@ -165,6 +165,7 @@ void LbmEngine::forget()
 void LbmEngine::start()
 {
     started_in_ = scene;
+    scene_is_there_ = Singleton<yade::Omega>::instance().getScene();
     read_solids(*scene, {settings_.mask, settings_.ids}, 0, solids_);
     check_scene(*scene, settings_, solids_);
     check_lubrication(settings_, asked_.lubrication_law);

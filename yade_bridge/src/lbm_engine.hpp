@@ -9,6 +9,8 @@
 
 #include <core/GlobalEngine.hpp>
 
+#include <boost/weak_ptr.hpp>
+
 #include <array>
 #include <functional>
 #include <memory>
@@ -123,6 +125,7 @@ private:
     int times_moved_still_ = 0;               // in so many fluid steps in turn
     bool loaded_ = false;                     // from a file, and not begun since
     const yade::Scene* started_in_ = nullptr;
+    boost::weak_ptr<yade::Scene> scene_is_there_;
     long last_iter_ = -1;  // of the scene, at the last action
     double last_time_ = 0;
     struct Asked {
