@@ -90,6 +90,7 @@ private:
         c.dx = c.density = c.viscosity = c.tau = 1;
         if (available_memory() > 200e9) return;
         test::assert_says(test::says<ConfigError>([&] { const Fluid fluid(c); }), " GB are available; use a larger dx");
+        test::assert_says(test::says<ConfigError>([&] { Fluid::check(c); }), " GB are available; use a larger dx");
     }
 };
 

@@ -397,7 +397,7 @@ FluidPlan LbmEngine::plan() const
     request.contact_frequency = contact_frequency(now, solids);
     FluidPlan plan{lbm::plan_time_step(request), fluid_cells()};
     const lbm::FluidConfig config = fluid_config(settings_, plan.tau, 0);
-    lbm::Fluid::check(config);
+    if (!fluid_) lbm::Fluid::check(config);  // one that is there need not fit once more
     std::vector<std::string> warnings = scene_warnings(now, settings_, solids);
     const std::string overlap = overlap_warning(config, solids);
     if (!overlap.empty()) warnings.push_back(overlap);

@@ -1,12 +1,10 @@
 #include "lbm/fluid.hpp"
 
 #include "facade/implementation.hpp"
-#include "facade/validate.hpp"
 
 namespace lbm {
 
 Fluid::Fluid(const FluidConfig& config) : implementation_(std::make_unique<Implementation>(config)) {}
-void Fluid::check(const FluidConfig& config) { validate(config); }
 Fluid::~Fluid() = default;
 Fluid::Fluid(Fluid&&) noexcept = default;
 Fluid& Fluid::operator=(Fluid&&) noexcept = default;

@@ -62,7 +62,7 @@ std::array<bool, 3> periodic_axes(const FluidConfig& c)
 
 FluidConfig validated(const FluidConfig& config)
 {
-    validate(config);
+    Fluid::check(config);
     return config;
 }
 
@@ -75,6 +75,14 @@ double bytes_of_populations(const FluidConfig& c)
     return static_cast<double>(slots * bytes);
 }
 
+[[noreturn]] void throw_too_large(const FluidConfig& c)
+{
+    throw ConfigError(message("cells = ", c.cells[0], " x ", c.cells[1], " x ", c.cells[2], ": need ",
+                              bytes_of_populations(c) / 1e9, " GB of memory, ", available_memory() / 1e9,
+                              " GB are available; use a larger dx",
+                              c.storage == Storage::single_precision ? "" : ", or single storage"));
+}
+
 template <class L>
 AnyPopulations make_populations_of(const FluidConfig& c)
 {
@@ -84,7 +92,6 @@ AnyPopulations make_populations_of(const FluidConfig& c)
 
 AnyPopulations make_populations(const FluidConfig& c)
 {
-    if (bytes_of_populations(c) > available_memory()) throw std::bad_alloc();  // the system would kill who takes it
     const ThreadCount threads(c);
     return c.lattice == Lattice::d3q27 ? make_populations_of<D3Q27>(c) : make_populations_of<D3Q19>(c);
 }
@@ -100,6 +107,13 @@ std::array<bool, 6> mirrors(const FluidConfig& c)
 
 }  // namespace
 
+void Fluid::check(const FluidConfig& config)
+{
+    validate(config);
+    if (bytes_of_populations(config) > available_memory())
+        throw_too_large(config);  // the system would kill who takes it
+}
+
 // cppcheck-suppress uninitMemberVar ; it does not see the initialisers of a constructor that is a try block
 Fluid::Implementation::Implementation(const FluidConfig& c)
 try : config(validated(c)), dt(fluid_time_step(c.tau, c.dx, c.viscosity / c.density)), units(c.dx, dt, c.density),
@@ -109,10 +123,7 @@ try : config(validated(c)), dt(fluid_time_step(c.tau, c.dx, c.viscosity / c.dens
     films(c.cells, periodic_axes(c), c.lubrication_roughness) {
     start_at(mean_face_pressure(lattice_faces(c, units)), (1 / units.velocity) * c.initial_velocity);
 } catch (const std::bad_alloc&) {
-    throw ConfigError(message("cells = ", c.cells[0], " x ", c.cells[1], " x ", c.cells[2], ": need ",
-                              bytes_of_populations(c) / 1e9, " GB of memory, ", available_memory() / 1e9,
-                              " GB are available; use a larger dx",
-                              c.storage == Storage::single_precision ? "" : ", or single storage"));
+    throw_too_large(c);
 }
 
 std::size_t Fluid::Implementation::memory_bytes() const
