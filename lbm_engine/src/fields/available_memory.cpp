@@ -1,6 +1,7 @@
 #include "fields/available_memory.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -10,7 +11,7 @@ namespace lbm {
 namespace {
 
 /// The first number of a file; none if there is no such file, or it says "max".
-std::optional<double> number_in(const std::string& file)
+std::optional<double> number_in(const std::filesystem::path& file)
 {
     std::ifstream in(file);
     double value = 0;
@@ -18,7 +19,7 @@ std::optional<double> number_in(const std::string& file)
 }
 
 /// The number behind a key at the beginning of a line.
-std::optional<double> number_in(const std::string& file, const std::string& key)
+std::optional<double> number_in(const std::filesystem::path& file, const std::string& key)
 {
     std::ifstream in(file);
     for (std::string line; std::getline(in, line);) {
@@ -43,10 +44,10 @@ double left_by(const Names& names, const std::string& root, std::string group)
 {
     double left = std::numeric_limits<double>::infinity();
     while (true) {
-        const std::string folder = root + names.folder + group + '/';
-        const auto limit = number_in(folder + names.limit), usage = number_in(folder + names.usage);
+        const std::filesystem::path folder = root + names.folder + group;
+        const auto limit = number_in(folder / names.limit), usage = number_in(folder / names.usage);
         if (limit && usage) {
-            const std::string stat = folder + "memory.stat";
+            const auto stat = folder / "memory.stat";
             const double cached =
                 number_in(stat, names.inactive_file).value_or(0) + number_in(stat, names.active_file).value_or(0);
             left = std::min(left, *limit - *usage + cached);
