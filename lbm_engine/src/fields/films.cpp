@@ -291,7 +291,7 @@ const std::vector<FilmLoad>& Films::solve(const std::vector<FilmSphere>& spheres
     gather_bodies(spheres, walls);
     loads_.assign(spheres.size(), FilmLoad{});
     FirstException out_of_memory;
-#pragma omp parallel for schedule(dynamic, 1) if (parts_.size() > 1)
+#pragma omp parallel for schedule(dynamic, 1) if (parts_.size() > kWorthThreads)
     for (Part& part : parts_) out_of_memory.keep([&] { make_films(spheres, viscosity, part); });
     out_of_memory.rethrow();
     const std::size_t colours = colours_.size();
