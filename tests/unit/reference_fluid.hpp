@@ -138,9 +138,9 @@ private:
                     const double h = std::max(0.0, (r2 - R * R) / (2 * R) + (dot(s, s) - R2 * R2) / (2 * R2));
                     if (facing <= 0 || h >= widest) continue;
                     const double left = 1 - h / widest;
-                    most = std::max(most, 3.7 / (h * h + 4) * left * std::min(facing, 1.0));
+                    most = std::max(most, 3.2 * h / (1 + h * h * h) * left * std::min(facing, 1.0));
                 }
-                const double more = most * share.epsilon * (1 - share.epsilon);
+                const double more = most * share.epsilon * std::pow(1 - share.epsilon, 2);
                 share.epsilon += more;
                 filled_[share.solid] += more;
             }
@@ -198,8 +198,10 @@ private:
             k_eps *= eps / sum;
             u_s = (1 / sum) * u_s;
         }
-        const double lam = Lambda_ == 0.125 ? (1 - eps) / (1 + 3 * eps) + 0.05 * eps : 1;
-        const double kk = k_eps * Lp / (std::max(m, 0.02) + k_eps * Lp / 2);
+        const bool low_noise = Lambda_ == 0.125;
+        const double lam = low_noise ? 1 + 10 * eps * std::pow(1 - eps, 2) - 0.96 * eps * eps : 1;
+        const double g = low_noise ? 1 + 1.5 * eps * eps : 1;
+        const double kk = g * k_eps * Lp / (std::max(m, 0.02 * g) + g * k_eps * Lp / 2);
         const double omega_plus = 1 / c_.tau, omega_minus = 1 / (Lm * lam + 0.5);
 
         double rho = 1;

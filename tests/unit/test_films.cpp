@@ -94,7 +94,7 @@ class FilmsOfManySpheres : public CppUnit::TestFixture {
                 after += (1 / kMass) * loads[i].force;
                 spin_after += (1 / kInertia) * (loads[i].torque + cross(members[i].lever, loads[i].force));
             }
-            CPPUNIT_ASSERT(after[1] > velocity[1] && after[1] < 1e-4 * 0.1);
+            CPPUNIT_ASSERT(after[1] > velocity[1] && after[1] < 1e-3 * 0.1);  // iterations end at changes of 1e-4
             CPPUNIT_ASSERT(kMass * dot(after, after) + kInertia * dot(spin_after, spin_after) <
                            kMass * dot(velocity, velocity) + kInertia * dot(spin, spin));
         }

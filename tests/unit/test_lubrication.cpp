@@ -103,7 +103,7 @@ class Lubrication : public CppUnit::TestFixture {
             const auto squeeze = [&](double gap) {
                 return film_resistance(1, 5, a2, gap, seen_gaps(gap, wall)).squeeze;
             };
-            const double widest = wall ? kWidestFilm : 2.5;
+            const double widest = kWidestFilm;
             CPPUNIT_ASSERT_EQUAL(0.0, squeeze(widest));
             CPPUNIT_ASSERT_EQUAL(0.0, film_resistance(1, 5, a2, 2, seen_gaps(2, wall)).slide);
             // At the cut-off and a tenth of a cell inside: nothing to see beside Stokes drag.

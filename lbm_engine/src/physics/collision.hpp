@@ -225,13 +225,12 @@ struct Exchange {
     V weight;       ///< kk rho
 };
 
-/// omega-_c = 1 / (Lm lam(eps) + 1/2), with the lam of the parameter set (Weighting), multiplied out: one division.
+/// omega-_c = 1 / (Lm lam(eps) + 1/2), with the lam of the parameter set (Weighting).
 template <class V>
 [[gnu::always_inline]] inline V cell_omega_minus(const CollisionParameters& p, const V& epsilon)
 {
     if (!p.low_noise) return V{} + p.rates.omega_minus;
-    const V a = 1 + 3 * epsilon;
-    return a / (p.rates.Lm * ((1 - epsilon) + 0.05 * epsilon * a) + 0.5 * a);
+    return 1 / (p.rates.Lm * low_noise_lam(epsilon) + 0.5);
 }
 
 /// What its solids make of a cell's collision: known before the populations are.
@@ -247,8 +246,9 @@ template <class V>
 [[gnu::always_inline]] inline CutCell<V> cut_cell(const CollisionParameters& p, const Saturation<V>& s)
 {
     const V m = 1 - s.epsilon;
-    const V kLp = p.rates.Lp * s.strength;
-    const V least = V{} + kLeastFluidFraction;
+    const V g = p.low_noise ? low_noise_gain(s.epsilon) : V{} + 1.0;
+    const V kLp = p.rates.Lp * s.strength * g;
+    const V least = kLeastFluidFraction * g;
     const V kk = kLp / ((m > least ? m : least) + 0.5 * kLp);
     return {s.epsilon, kk, cell_omega_minus(p, s.epsilon), {s.u_s[0], s.u_s[1], s.u_s[2]}};
 }
@@ -256,7 +256,7 @@ template <class V>
 /**
  * One collision of a partially saturated cell, exact in tau for Stokes flow (superposition form, docs/physics.md):
  *
- *     kk   = k eps Lp / (max(m, 0.02) + k eps Lp / 2),   m = 1 - eps
+ *     kk   = k g eps Lp / (max(m, 0.02 g) + k g eps Lp / 2),   m = 1 - eps,   g = g(eps)
  *     Lm_c = Lm lam(eps),   omega-_c = 1 / (Lm_c + 1/2)
  *     u    = (sum f c + m F / 2) / rho
  *     F_s  = kk rho (u_s - u),   u_phys = u + F_s / (2 rho)

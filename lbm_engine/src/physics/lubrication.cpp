@@ -8,7 +8,7 @@ namespace {
 
 /**
  * How much wider than it is a gap looks to the lattice: at contact, and the gap from which on it looks as it is [cells]. Measured with spheres of 4 and 6
- * cells, which agree; docs/physics.md has the tables. Two spheres that slide or roll at gaps of 0.2 to 1.2 cells are overdone by a few per cent, which is left: films only take energy.
+ * cells, which agree; docs/physics.md has the tables. Two spheres that slide or roll at gaps of 0.3 to 1.2 cells are overdone by a few per cent, which is left: films only take energy.
  */
 struct Blur {
     double at_contact, until;
@@ -20,17 +20,23 @@ struct Blur {
     }
 };
 
-constexpr Blur kSqueeze{0.215, 2.5}, kSlide{0.15, 0.45}, kPump{0.155, 1.75};
-constexpr Blur kSqueezeAtWall{0.26, kWidestFilm}, kPumpAtWall{0.19, 1.4};
+constexpr Blur kSlide{0.235, 0.55}, kPump{0.145, 1.75};
+constexpr Blur kSqueezeAtWall{0.3, kWidestFilm}, kPumpAtWall{0.17, 1.2};
 
-/// Sliding along a wall is overdone between 0.06 and 0.8 cells, since the first layer of cells takes the sphere's velocity at its centre.
-double seen_sliding_at_wall(double gap) { return gap < 0.809 ? gap + 0.6 * (gap - 0.0577) * (gap - 0.809) : gap; }
+double seen_squeeze(double gap)
+{
+    const double left = std::max(0.0, 1 - gap / kWidestFilm);
+    return gap + 0.257 * left * left / (1 + gap / 0.49);
+}
+
+/// Sliding along a wall is overdone between 0.2 and 0.85 cells, since the first layer of cells takes the sphere's velocity at its centre.
+double seen_sliding_at_wall(double gap) { return gap < 0.85 ? gap + 0.39 * (gap - 0.2) * (gap - 0.85) : gap; }
 
 }  // namespace
 
 SeenGaps seen_gaps(double gap, bool wall)
 {
-    return {(wall ? kSqueezeAtWall : kSqueeze).seen(gap), wall ? seen_sliding_at_wall(gap) : kSlide.seen(gap),
+    return {wall ? kSqueezeAtWall.seen(gap) : seen_squeeze(gap), wall ? seen_sliding_at_wall(gap) : kSlide.seen(gap),
             (wall ? kPumpAtWall : kPump).seen(gap)};
 }
 

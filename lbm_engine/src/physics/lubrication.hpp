@@ -23,7 +23,7 @@ struct FilmResistance {
 };
 
 /// Widest gap that is corrected [cells].
-inline constexpr double kWidestFilm = 3.5;
+inline constexpr double kWidestFilm = 2.9;
 
 /// Gaps that the lattice seems to see in each of the motions [cells].
 struct SeenGaps {

@@ -33,12 +33,12 @@ struct Opposite {
 [[nodiscard]] double narrow_reach(double radius1, double radius2);
 
 /**
- * The cells that a sphere cuts, which count as more solid where other spheres stand opposite across a narrow pore: eps (1 + t (1 - eps)) instead of eps.
+ * The cells that a sphere cuts, which count as more solid where other spheres stand opposite across a narrow pore: eps (1 + t (1 - eps)^2) instead of eps.
  *
  * A pressure gradient drives flow through cut cells, which lets fluid slip along surfaces; against the flow of a narrow pore this counts (docs/physics.md,
  * "Narrow pores"). With r and s the places of a cell as seen from the two centres,
  *
- *     t = 3.7 / (h^2 + 4) (1 - h / w) min(1, -2 r.s / (R1 R2)),   h = (r^2 - R1^2) / (2 R1) + (s^2 - R2^2) / (2 R2),   w = min(R1, R2)
+ *     t = 3.2 h / (1 + h^3) (1 - h / w) min(1, -2 r.s / (R1 R2)),   h = (r^2 - R1^2) / (2 R1) + (s^2 - R2^2) / (2 R2),   w = min(R1, R2)
  *
  * h being the width of the pore; the last factor fades it out where surfaces stand across to each other. The largest t counts.
  */

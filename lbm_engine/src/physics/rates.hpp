@@ -30,20 +30,36 @@ inline constexpr double kLambdaLowNoise = 0.125;
 /// The one that the literature uses most, for its own schemes: half-way walls in a channel are exact.
 inline constexpr double kLambdaPublished = 3.0 / 16;
 
-/// The fluid fraction that the weight of a cell sees is at least this. A full cell then is a solid with a permeability of (1/450) dx^2: no
-/// flow to speak of, but its pressure settles in some hundred steps per unit of tau, where at 0 it would be frozen.
+/// The fluid fraction over the gain, (1 - eps) / g, that the weight of a cell sees is at least this. A full cell then is a solid with a
+/// permeability of (1/400) dx^2 (R = 4): no flow to speak of, but its pressure settles in some hundred steps per unit of tau, where at 0 it would be frozen.
 inline constexpr double kLeastFluidFraction = 0.02;
+
+/// lam(eps) of set LN (Weighting).
+template <class V>
+[[nodiscard]] constexpr V low_noise_lam(const V& epsilon)
+{
+    const V m = 1 - epsilon;
+    return 1 + epsilon * (10 * (m * m) - 0.96 * epsilon);
+}
+
+/// g(eps) of set LN (Weighting).
+template <class V>
+[[nodiscard]] constexpr V low_noise_gain(const V& epsilon)
+{
+    return 1 + 1.5 * (epsilon * epsilon);
+}
 
 /**
  * The weighting of partially saturated cells: two parameter sets, both exact in tau.
  *
- *     LN  (lambda = 1/8)   lam(eps) = (1 - eps) / (1 + 3 eps) + eps / 20
- *                          D3Q19  k = 2.04 + 4.7 / R                                 D3Q27  k = 1.87 + 5.09 / R
- *     R   (any lambda)     lam(eps) = 1
+ *     LN  (lambda = 1/8)   lam(eps) = 1 + 10 eps (1 - eps)^2 - 0.96 eps^2,   g(eps) = 1 + 1.5 eps^2
+ *                          D3Q19  k = 2.11 + 4.0 / R                                 D3Q27  k = 2.05 + 4.4 / R
+ *     R   (any lambda)     lam(eps) = g(eps) = 1
  *                          D3Q19  k = 1.93 + 9.05 lambda + (1.9 + 17 lambda) / R     D3Q27  k = 1.64 + 11.7 lambda + (2.5 + 14.1 lambda) / R
  *
- * lam scales Lm in a cut cell; k is the strength of the solid force for a sphere of R cells; R is infinite for other surfaces.
- * Fitted with exact solid fractions on the drag of a simple cubic array; docs/physics.md has the derivation and the measurements.
+ * lam scales Lm in a cut cell; k g is the strength of the solid force for a sphere of R cells; R is infinite for other surfaces.
+ * lam and g of set LN were fitted on exact solutions between planes of all orientations, k on the drag of a simple cubic array with exact solid fractions;
+ * docs/physics.md has the derivation and the measurements.
  */
 struct Weighting {
     bool low_noise;
@@ -53,8 +69,8 @@ struct Weighting {
     {
         const bool d3q19 = lattice == Lattice::d3q19;
         if (low_noise) {
-            k_flat = d3q19 ? 2.04 : 1.87;
-            k_curved = d3q19 ? 4.7 : 5.09;
+            k_flat = d3q19 ? 2.11 : 2.05;
+            k_curved = d3q19 ? 4.0 : 4.4;
         } else {
             k_flat = d3q19 ? 1.93 + 9.05 * lambda : 1.64 + 11.7 * lambda;
             k_curved = d3q19 ? 1.9 + 17 * lambda : 2.5 + 14.1 * lambda;

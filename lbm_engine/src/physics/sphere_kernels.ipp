@@ -176,8 +176,8 @@ void gather(const CutRow* row, const CutRow* end, double* fraction, double* x, d
 void narrow(const PoreShape& shape, const double* xs, const double* ys, const double* zs, std::size_t count,
             double* thickening) noexcept
 {
-    constexpr double kStrength = 3.7, kWidth2 = 4;  // fitted: docs/physics.md
-    const PoreShape pore = shape;                   // which no store can change
+    constexpr double kStrength = 3.2;  // fitted: docs/physics.md
+    const PoreShape pore = shape;      // which no store can change
     const V zero{}, one = all(1);
     for (std::size_t i = 0; i < count; i += kPore) {
         V h[kTogether], along[kTogether], r2[kTogether], t[kTogether];
@@ -194,7 +194,7 @@ void narrow(const PoreShape& shape, const double* xs, const double* ys, const do
         each([&](std::size_t n, std::size_t) __attribute__((always_inline)) {
             const V width = pore.curvature * r2[n] - along[n] + pore.distance;
             h[n] = width > 0 ? width : zero;
-            t[n] = kStrength / (h[n] * h[n] + kWidth2);
+            t[n] = kStrength * h[n] / (1 + h[n] * h[n] * h[n]);
         });
         each([&](std::size_t n, std::size_t at) __attribute__((always_inline)) {
             const V narrow = 1 - h[n] * pore.over_widest, in_reach = narrow > 0 ? narrow : zero;
@@ -211,7 +211,7 @@ double thicken(const double* thickening, std::size_t count, double* fraction) no
 {
     V sums{};
     for (std::size_t i = 0; i < count; i += kWidth) {
-        const V eps = read(fraction + i), more = read(thickening + i) * (eps * (1 - eps));
+        const V eps = read(fraction + i), m = 1 - eps, more = read(thickening + i) * (eps * (m * m));
         write(fraction + i, eps + more);
         sums += more;
     }
