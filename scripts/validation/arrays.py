@@ -133,11 +133,10 @@ Error of the drag, mean ± half range over the offsets, and the slope of the wor
 {convergence(results)}
 
 The constants of the scheme were fitted on the simple cubic array with c = 0.125, so errors of dilute arrays are small by
-construction and change sign; a slope through them means little. In narrow pores cut cells count more (docs/physics.md, "Narrow pores"), with two constants that were fitted on arrays of c = 0.125 to
+construction and change sign; a slope through them means little. In narrow pores cut cells count more (docs/physics.md, "Narrow pores"), with one constant that was fitted on arrays of c = 0.3 to
 0.68 at 8 to 30 cells per diameter and a random pack; what is left changes sign with the resolution and the array. Cubes of more than 48 cells were run with two offsets, smaller ones with eight.
 
-Face-centred arrays come closer to the exact values slowly (c = 0.5: -2.2, -1.9 and -1.5 % at d = 16, 24 and 32, one offset): where the no-slip surface stands depends a little on how it lies to the lattice, by some 0.03 cells, and in dense arrays a few orientations carry the flow.
-Turned by 45 degrees about an axis the same array (25 cells per diameter) has -0.1 and -0.4 % across and along it instead of -1.8 %, and the body-centred one -1.0 instead of +0.1 %. With the other set of constants (R, at Lambda = 1/8) these are -0.6 / -0.5 instead of 0.0, and +0.1 / +0.2 instead of -0.4 %. Random packs average over orientations.
+How an array lies to the lattice counts little (runs of their own): turned by 45 degrees about an axis the face-centred one of c = 0.5 (25 cells per diameter) has -0.25 and -0.28 % across and along it, upright -0.4 % at 16; the body-centred one -0.19 and -0.03 % (23 cells), upright -0.15 %.
 """
 
 
