@@ -20,6 +20,12 @@ Made by `scripts/validate` from the results in [{folder}/]({folder}/), which hol
 - A verdict is given only where a target was set before the runs. No target was changed to fit a number.
 """
 
+# When the scheme itself changed last: results made before are of another one.
+SCHEME_SINCE = "2026-11-22T20:03"
+OLDER = """\
+**Made with the scheme as it was before its functions of eps were fitted to planes** ([physics](physics.md), "Where walls stand"; the constants of the default Lambda = 1/8, the law of narrow pores and the films changed then), and to be run again: {cases}.
+"""
+
 NOT_COVERED = """\
 ## Not covered yet
 
@@ -82,6 +88,14 @@ def provenance(case, store):
             f"commit {commits}; {dates}.")
 
 
+def older(case, store):
+    """The name of a case with results of the scheme before, and how many of its runs they are; nothing if there are none."""
+    count = sum(store.sessions[result.session]["date"] < SCHEME_SINCE for result in store.results)
+    if not count:
+        return ""
+    return f"`{case.name}`" + ("" if count == len(store.results) else f" ({count} of {len(store.results)} runs)")
+
+
 def section(case, store, rows, good, images, folder):
     """The part of the report about one case."""
     parts = [f"## {case.title}", f"*Case `{case.name}`.* {case.solved.strip()}", f"**Reference.** {case.reference.strip()}",
@@ -99,7 +113,7 @@ def section(case, store, rows, good, images, folder):
 def make(cases, folder, path, figures=True):
     """Draws the figures into `folder` (unless told not to) and writes the report; returns its path. Cases without results are left out."""
     link = os.path.basename(folder)
-    sections, lines, seconds = [], [], 0.0
+    sections, lines, before, seconds = [], [], [], 0.0
     for case in cases:
         store = Store(folder, case.name)
         good = [result for result in store.results if not result.failure]
@@ -110,11 +124,12 @@ def make(cases, folder, path, figures=True):
             plotting.save(figure, os.path.join(folder, figure.name + ".png"))
         sections.append(section(case, store, rows, good, images, link))
         lines += [(f"[{case.name}](#{anchor(case.title)})", row) for row in rows]
+        before += filter(None, [older(case, store)])
         seconds += sum(result.seconds for result in store.results)
     cost = f" (about {seconds / 60:.0f} minutes of one core)"
     judged = [row.met for _, row in lines if row.met is not None]
     count = f"{sum(judged)} of {len(judged)} targets are met." if judged else ""
-    text = [HEAD.format(folder=link, cost=cost), "## Summary", count, summary([line for line in lines if line[1].met is not None]),
+    text = [HEAD.format(folder=link, cost=cost), OLDER.format(cases=", ".join(before)) if before else "", "## Summary", count, summary([line for line in lines if line[1].met is not None]),
             *sections, NOT_COVERED]
     with open(path, "w", encoding="utf-8") as file:
         file.write("\n\n".join(part.strip() for part in text if part) + "\n")

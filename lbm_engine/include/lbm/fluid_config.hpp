@@ -63,7 +63,7 @@ struct FluidConfig {
     Lattice lattice = Lattice::d3q19;
     Storage storage = Storage::double_precision;
     bool lubrication =
-        true;  ///< Fluid::film_loads: what the lattice does not resolve of gaps below 3.5 cells; exact scheme only
+        true;  ///< Fluid::film_loads: what the lattice does not resolve of gaps below 2.9 cells; exact scheme only
     double lubrication_roughness =
         1e-3;               ///< gap, in radii of the smaller sphere, below which films get no stronger, > 0
     double max_mach = 0.2;  ///< a step that goes beyond it ends the run, > 0
