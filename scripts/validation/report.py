@@ -88,9 +88,17 @@ def provenance(case, store):
             f"commit {commits}; {dates}.")
 
 
+def has_changed(result):
+    """Whether a run, made now, would be one of another scheme than before SCHEME_SINCE: not without solids, nor with other schemes or another Lambda."""
+    chosen = result.arguments
+    if "scheme" in chosen:
+        return chosen["scheme"] == "exact"
+    return result.function not in ("poiseuille", "duct", "transient", "oscillating") and chosen.get("magic_parameter", 0) in (0, 0.125)
+
+
 def older(case, store):
     """The name of a case with results of the scheme before, and how many of its runs they are; nothing if there are none."""
-    count = sum(store.sessions[result.session]["date"] < SCHEME_SINCE for result in store.results)
+    count = sum(has_changed(result) and store.sessions[result.session]["date"] < SCHEME_SINCE for result in store.results)
     if not count:
         return ""
     return f"`{case.name}`" + ("" if count == len(store.results) else f" ({count} of {len(store.results)} runs)")
