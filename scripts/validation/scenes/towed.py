@@ -5,7 +5,7 @@ import math
 import numpy as np
 from scene import arguments, leave
 from yade import O, Vector3, utils
-from yade.wrapper import ForceResetter, NewtonIntegrator
+from yade.wrapper import ForceResetter, NewtonIntegrator, PyRunner
 
 from yadelbm import LbmEngine
 
@@ -31,10 +31,16 @@ O.run(settle, True)
 loads, velocities = [], []
 steps = math.ceil(CELLS / (speed * O.dt))
 every = max(1, steps // 1600)
-for _ in range(steps // every):
-    O.run(every, True)
+
+
+def record():
+    """What a step leaves: in the loop, since each O.run waits for up to 40 ms."""
     loads.append(list(fluid.fluidForce(ball)))
     velocities.append(list(fluid.averageVelocity()))
+
+
+O.engines = [*O.engines, PyRunner(command="record()", iterPeriod=every)]
+O.run(steps // every * every, True)
 loads, mean = np.array(loads), np.mean(loads, axis=0)
 relative = speed - float(np.mean(velocities, axis=0) @ along)
 drag = -float(mean @ along)
