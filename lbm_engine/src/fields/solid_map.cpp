@@ -238,10 +238,10 @@ void SolidMap::mark_walls()
     }
 }
 
-/// The curved part of the strength was fitted on spheres. Elsewhere it is left out: for a bore that is the most accurate, too (docs/physics.md).
+/// The curved part of the strength was fitted on spheres. Elsewhere planes decide (docs/physics.md).
 double SolidMap::k(const SolidGeometry& geometry) const
 {
-    return weighting_.k(geometry.shape == Shape::sphere ? geometry.radius : std::numeric_limits<double>::infinity());
+    return geometry.shape == Shape::sphere ? weighting_.k(geometry.radius) : weighting_.k_other;
 }
 
 /// Of a row: without cells outside the lattice, and with full cells only where a span can tell of them. Boxes keep all fractions: their walls have marks beside them.

@@ -53,17 +53,17 @@ template <class V>
  * The weighting of partially saturated cells: two parameter sets, both exact in tau.
  *
  *     LN  (lambda = 1/8)   lam(eps) = 1 + 10 eps (1 - eps)^2 - 0.96 eps^2,   g(eps) = 1 + 1.5 eps^2
- *                          D3Q19  k = 2.11 + 4.0 / R                                 D3Q27  k = 2.05 + 4.4 / R
+ *                          D3Q19  k = 2.11 + 4.0 / R                                 D3Q27  k = 2.05 + 4.4 / R                                 other surfaces  2.4
  *     R   (any lambda)     lam(eps) = g(eps) = 1
  *                          D3Q19  k = 1.93 + 9.05 lambda + (1.9 + 17 lambda) / R     D3Q27  k = 1.64 + 11.7 lambda + (2.5 + 14.1 lambda) / R
  *
- * lam scales Lm in a cut cell; k g is the strength of the solid force for a sphere of R cells; R is infinite for other surfaces.
+ * lam scales Lm in a cut cell; k g is the strength of the solid force for a sphere of R cells; for other surfaces of set R that of an infinite one.
  * lam and g of set LN were fitted on exact solutions between planes of all orientations, k on the drag of a simple cubic array with exact solid fractions;
  * docs/physics.md has the derivation and the measurements.
  */
 struct Weighting {
     bool low_noise;
-    double k_flat, k_curved;
+    double k_flat, k_curved, k_other;
 
     constexpr Weighting(Lattice lattice, double lambda) : low_noise(lambda == kLambdaLowNoise)
     {
@@ -71,13 +71,15 @@ struct Weighting {
         if (low_noise) {
             k_flat = d3q19 ? 2.11 : 2.05;
             k_curved = d3q19 ? 4.0 : 4.4;
+            k_other = 2.4;
         } else {
             k_flat = d3q19 ? 1.93 + 9.05 * lambda : 1.64 + 11.7 * lambda;
             k_curved = d3q19 ? 1.9 + 17 * lambda : 2.5 + 14.1 * lambda;
+            k_other = k_flat;
         }
     }
 
-    /// @param radius  of the sphere [cells]; infinity for other surfaces
+    /// Of a sphere. @param radius  [cells]
     [[nodiscard]] constexpr double k(double radius) const { return k_flat + k_curved / radius; }
 };
 
