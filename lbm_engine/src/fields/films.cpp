@@ -148,7 +148,8 @@ void Films::colour(const std::vector<FilmSphere>& spheres)
     for (std::size_t s = 0; s < spheres.size(); ++s)
         body[s] = spheres[s].body < 0 ? s : first_of_body.emplace(spheres[s].body, s).first->second;
     std::vector<std::uint64_t> used(spheres.size(), 0);
-    std::array<std::vector<Part>, kColours + 1> of_colour;
+    constexpr int kLeftOver = kColours;  // parts for which no colour is left: one by one
+    std::array<std::vector<Part>, kLeftOver + 1> of_colour;
     for (Part& part : parts_) {
         const auto for_bodies = [&](auto&& act) {
             for (const Place& place : part.near) {
@@ -159,7 +160,7 @@ void Films::colour(const std::vector<FilmSphere>& spheres)
         std::uint64_t taken = 0;
         for_bodies([&](std::uint64_t colours) { taken |= colours; });
         const int colour = std::countr_one(taken);
-        if (colour < kColours) for_bodies([&](std::uint64_t& colours) { colours |= std::uint64_t{1} << colour; });
+        if (colour != kLeftOver) for_bodies([&](std::uint64_t& colours) { colours |= std::uint64_t{1} << colour; });
         of_colour[colour].push_back(std::move(part));
     }
     parts_.clear();
