@@ -1,6 +1,9 @@
 #pragma once
 
 #include "lbm/fluid_config.hpp"
+#include "lbm/solid.hpp"
+
+#include <cstdint>
 
 namespace lbm::test {
 
@@ -18,5 +21,15 @@ inline FluidConfig lattice_config(const std::array<int, 3>& cells, double tau)
 }
 
 inline void walls(FluidConfig& c, int axis) { c.faces[2 * axis].type = c.faces[2 * axis + 1].type = FaceType::no_slip; }
+
+inline Solid sphere(std::int64_t id, const Vec3& position, double radius, std::int64_t body = -1)
+{
+    Solid s;
+    s.id = id;
+    s.body = body;
+    s.position = position;
+    s.radius = radius;
+    return s;
+}
 
 }  // namespace lbm::test

@@ -11,16 +11,6 @@ using namespace lbm;
 
 constexpr double kRoundOff = 1e-14;
 
-Solid sphere(std::int64_t id, const Vec3& centre, double radius, std::int64_t body = -1)
-{
-    Solid s;
-    s.id = id;
-    s.position = centre;
-    s.radius = radius;
-    s.body = body;
-    return s;
-}
-
 /// Spheres that share more than a contact does are found, with the volume that counts twice.
 class SpheresThatOverlap : public CppUnit::TestFixture {
     CPPUNIT_TEST_SUITE(SpheresThatOverlap);
@@ -34,18 +24,18 @@ class SpheresThatOverlap : public CppUnit::TestFixture {
 
     void shared_volume_is_that_of_the_lens()
     {
-        const Solid one = sphere(7, {10, 10, 10}, 4);
+        const Solid one = test::sphere(7, {10, 10, 10}, 4);
         // Equal spheres a radius apart share 5/16; one that is half as large and stands on the surface of the other shares 13/32.
-        LBM_ASSERT_CLOSE(5.0 / 16, overlaps(box_, {one, sphere(3, {10, 14, 10}, 4)}).shared, kRoundOff, 1.0);
-        LBM_ASSERT_CLOSE(13.0 / 32, overlaps(box_, {one, sphere(3, {10, 10, 14}, 2)}).shared, kRoundOff, 1.0);
-        LBM_ASSERT_CLOSE(1.0, overlaps(box_, {one, sphere(3, {11, 10, 10}, 2)}).shared, kRoundOff, 1.0);
-        LBM_ASSERT_CLOSE(1.0, overlaps(box_, {one, sphere(3, {10, 10, 10}, 4)}).shared, kRoundOff, 1.0);
+        LBM_ASSERT_CLOSE(5.0 / 16, overlaps(box_, {one, test::sphere(3, {10, 14, 10}, 4)}).shared, kRoundOff, 1.0);
+        LBM_ASSERT_CLOSE(13.0 / 32, overlaps(box_, {one, test::sphere(3, {10, 10, 14}, 2)}).shared, kRoundOff, 1.0);
+        LBM_ASSERT_CLOSE(1.0, overlaps(box_, {one, test::sphere(3, {11, 10, 10}, 2)}).shared, kRoundOff, 1.0);
+        LBM_ASSERT_CLOSE(1.0, overlaps(box_, {one, test::sphere(3, {10, 10, 10}, 4)}).shared, kRoundOff, 1.0);
     }
 
     void the_worst_of_all_pairs_is_named()
     {
-        const Overlaps found = overlaps(box_, {sphere(4, {5, 10, 10}, 3), sphere(8, {9, 10, 10}, 3),
-                                               sphere(2, {12, 10, 10}, 3), sphere(5, {22, 10, 10}, 3)});
+        const Overlaps found = overlaps(box_, {test::sphere(4, {5, 10, 10}, 3), test::sphere(8, {9, 10, 10}, 3),
+                                               test::sphere(2, {12, 10, 10}, 3), test::sphere(5, {22, 10, 10}, 3)});
         CPPUNIT_ASSERT_EQUAL(2, found.pairs);
         CPPUNIT_ASSERT_EQUAL(std::int64_t{8}, found.one);
         CPPUNIT_ASSERT_EQUAL(std::int64_t{2}, found.other);
@@ -54,19 +44,23 @@ class SpheresThatOverlap : public CppUnit::TestFixture {
     void contacts_and_bodies_are_no_overlap()
     {
         CPPUNIT_ASSERT_EQUAL(0, overlaps(box_, {}).pairs);
-        CPPUNIT_ASSERT_EQUAL(0, overlaps(box_, {sphere(0, {10, 10, 10}, 4), sphere(1, {17.5, 10, 10}, 4)}).pairs);
-        CPPUNIT_ASSERT_EQUAL(0, overlaps(box_, {sphere(0, {10, 10, 10}, 4, 1), sphere(1, {12, 10, 10}, 4, 1)}).pairs);
-        CPPUNIT_ASSERT_EQUAL(1, overlaps(box_, {sphere(0, {10, 10, 10}, 4, 1), sphere(1, {12, 10, 10}, 4, 2)}).pairs);
+        CPPUNIT_ASSERT_EQUAL(
+            0, overlaps(box_, {test::sphere(0, {10, 10, 10}, 4), test::sphere(1, {17.5, 10, 10}, 4)}).pairs);
+        CPPUNIT_ASSERT_EQUAL(
+            0, overlaps(box_, {test::sphere(0, {10, 10, 10}, 4, 1), test::sphere(1, {12, 10, 10}, 4, 1)}).pairs);
+        CPPUNIT_ASSERT_EQUAL(
+            1, overlaps(box_, {test::sphere(0, {10, 10, 10}, 4, 1), test::sphere(1, {12, 10, 10}, 4, 2)}).pairs);
     }
 
     void periodic_faces_are_looked_through_and_walls_are_not()
     {
-        const std::vector<Solid> at_both_ends{sphere(0, {1, 10, 10}, 4), sphere(1, {27, 10, 10}, 4)};
+        const std::vector<Solid> at_both_ends{test::sphere(0, {1, 10, 10}, 4), test::sphere(1, {27, 10, 10}, 4)};
         CPPUNIT_ASSERT_EQUAL(1, overlaps(box_, at_both_ends).pairs);
         FluidConfig closed = box_;
         test::walls(closed, 0);
         CPPUNIT_ASSERT_EQUAL(0, overlaps(closed, at_both_ends).pairs);
-        CPPUNIT_ASSERT_EQUAL(0, overlaps(closed, {sphere(0, {-9, 10, 10}, 4), sphere(1, {-8, 10, 10}, 4)}).pairs);
+        CPPUNIT_ASSERT_EQUAL(
+            0, overlaps(closed, {test::sphere(0, {-9, 10, 10}, 4), test::sphere(1, {-8, 10, 10}, 4)}).pairs);
     }
 };
 

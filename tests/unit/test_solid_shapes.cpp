@@ -56,16 +56,6 @@ double lens(double R, double distance)
     return kPi / 12 * (4 * R + distance) * (2 * R - distance) * (2 * R - distance);
 }
 
-Solid ball(std::int64_t id, const Vec3& position, double radius, std::int64_t body = -1)
-{
-    Solid s;
-    s.id = id;
-    s.body = body;
-    s.position = position;
-    s.radius = radius;
-    return s;
-}
-
 class SolidShapes : public CppUnit::TestFixture {
     CPPUNIT_TEST_SUITE(SolidShapes);
     CPPUNIT_TEST(box_along_the_axes_has_its_volume);
@@ -175,8 +165,8 @@ class SolidShapes : public CppUnit::TestFixture {
         FluidConfig c = test::lattice_config({14, 14, 14}, 0.8);
         c.acceleration = {1e-5, 2e-5, 0};
         Fluid one(c), two(c);
-        one.place_solids({ball(0, {7.2, 6.9, 7.1}, 4)});
-        two.place_solids({ball(0, {7.2, 6.9, 7.1}, 4, 5), ball(1, {7.2, 6.9, 7.1}, 4, 5)});
+        one.place_solids({test::sphere(0, {7.2, 6.9, 7.1}, 4)});
+        two.place_solids({test::sphere(0, {7.2, 6.9, 7.1}, 4, 5), test::sphere(1, {7.2, 6.9, 7.1}, 4, 5)});
         for (int t = 0; t < 20; ++t) {
             one.step();
             two.step();
@@ -194,7 +184,7 @@ class SolidShapes : public CppUnit::TestFixture {
         c.gravity = {0, 0, -1e-4};
         const double R = 4, distance = 5, V = 4 * kPi / 3 * R * R * R;
         Fluid fluid(c);
-        fluid.place_solids({ball(0, {8, 7, 7}, R, 3), ball(1, {8 + distance, 7, 7}, R, 3)});
+        fluid.place_solids({test::sphere(0, {8, 7, 7}, R, 3), test::sphere(1, {8 + distance, 7, 7}, R, 3)});
         fluid.step();
         const double buoyancy = fluid.loads()[0].force[2] + fluid.loads()[1].force[2];
         LBM_ASSERT_CLOSE(1e-4 * (2 * V - lens(R, distance)), buoyancy, kLinesPerCell, buoyancy);
@@ -206,12 +196,12 @@ class SolidShapes : public CppUnit::TestFixture {
         c.gravity = {0, 0, -1e-4};
         const double V = 4 * kPi / 3 * 64;
         Fluid fluid(c);
-        fluid.place_solids({ball(0, {8, 7, 7}, 4, 3), ball(1, {13, 7, 7}, 4, 3)});
+        fluid.place_solids({test::sphere(0, {8, 7, 7}, 4, 3), test::sphere(1, {13, 7, 7}, 4, 3)});
         fluid.step();
-        fluid.place_solids({ball(1, {13, 7, 7}, 4, 3)});
+        fluid.place_solids({test::sphere(1, {13, 7, 7}, 4, 3)});
         fluid.step();
         LBM_ASSERT_CLOSE(1e-4 * V, fluid.loads()[0].force[2], kRoundOff, 1.0);
-        fluid.place_solids({ball(0, {8, 7, 7}, 4), ball(1, {13, 7, 7}, 4)});
+        fluid.place_solids({test::sphere(0, {8, 7, 7}, 4), test::sphere(1, {13, 7, 7}, 4)});
         fluid.step();
         LBM_ASSERT_CLOSE(2e-4 * V, fluid.loads()[0].force[2] + fluid.loads()[1].force[2], kRoundOff, 1.0);
     }
@@ -224,7 +214,7 @@ class SolidShapes : public CppUnit::TestFixture {
         c.acceleration = {1e-4, 0, 0};
         Fluid fluid(c);
         for (const double z : {-4.0, 18.0, 13.5, 12.5}) {
-            fluid.place_solids({ball(0, {3, 3, z}, 2.5)});
+            fluid.place_solids({test::sphere(0, {3, 3, z}, 2.5)});
             fluid.step();
             if (z < 0 || z - 2.5 > 12) LBM_ASSERT_CLOSE(0.0, norm(fluid.loads()[0].force), kRoundOff, 1e-4);
             else CPPUNIT_ASSERT(norm(fluid.loads()[0].force) > 0);
@@ -237,7 +227,8 @@ class SolidShapes : public CppUnit::TestFixture {
         c.gravity = {0, 0, -1e-4};
         const double V = 4 * kPi / 3 * 64;
         Fluid fluid(c);
-        std::vector<Solid> parts{ball(0, {8, 7, 7}, 4, 3), ball(1, {11, 7, 7}, 4, 3), ball(2, {17, 7, 7}, 4, 3)};
+        std::vector<Solid> parts{test::sphere(0, {8, 7, 7}, 4, 3), test::sphere(1, {11, 7, 7}, 4, 3),
+                                 test::sphere(2, {17, 7, 7}, 4, 3)};
         fluid.place_solids(parts);
         parts[0].body = -1;  // nobody moves
         fluid.place_solids(parts);
@@ -258,7 +249,7 @@ class SolidShapes : public CppUnit::TestFixture {
             cube.shape = Shape::box;
             cube.half_extents = {3, 3, 3};
             cube.position = {8, 8, 8};
-            return std::vector<Solid>{ball(0, {x, 8, 8}, 4, 3), cube};
+            return std::vector<Solid>{test::sphere(0, {x, 8, 8}, 4, 3), cube};
         };
         const double beside = 15.5, inside = 12.5;
         for (const bool enters : {true, false}) {
@@ -334,7 +325,7 @@ class SolidShapes : public CppUnit::TestFixture {
             FluidConfig c = test::lattice_config({2, 16, 16}, tau);
             c.inertia = false;
             c.acceleration = {1e-6, 0, 0};
-            Solid pipe = ball(0, {1, 8.2, 7.9}, R);
+            Solid pipe = test::sphere(0, {1, 8.2, 7.9}, R);
             pipe.shape = Shape::pipe;
             Fluid fluid(c);
             fluid.place_solids({pipe});
@@ -372,7 +363,7 @@ class SolidShapes : public CppUnit::TestFixture {
         rod.half_extents = {10, 2, 2};
         rod.orientation = {std::cos(0.2), 0, 0, std::sin(0.2)};
         refused(rod);
-        Solid pipe = ball(0, {7, 7, 7}, 7.5);
+        Solid pipe = test::sphere(0, {7, 7, 7}, 7.5);
         pipe.shape = Shape::pipe;
         refused(pipe);
         pipe.radius = 5;
