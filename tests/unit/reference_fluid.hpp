@@ -79,9 +79,6 @@ public:
         f_.swap(next_);
     }
 
-    /// Volume of fluid in cut cells that counts to a solid.
-    double filled(std::size_t solid) const { return filled_[solid]; }
-
     std::size_t cell(int x, int y, int z) const
     {
         return (static_cast<std::size_t>(z) * c_.cells[1] + y) * c_.cells[0] + x;
@@ -97,7 +94,6 @@ private:
     void map(const std::vector<Solid>& solids)
     {
         shares_.assign(f_[0].size(), {});
-        filled_.assign(solids.size(), 0);
         for (std::size_t s = 0; s < solids.size(); ++s) {
             SphereFraction fraction;
             const Vec3& centre = solids[s].position;
@@ -125,6 +121,7 @@ private:
     /// Cells that a sphere cuts count more where another sphere stands opposite (docs/physics.md, "Narrow pores").
     void thicken(const std::vector<Solid>& solids)
     {
+        const double A = Lambda_ == 0.125 ? 5.4 : 7.1 - 10.4 * Lambda_;
         std::vector<std::vector<Image>> images;
         for (std::size_t s = 0; s < solids.size(); ++s) images.push_back(images_of_others(solids, s));
         for (auto& shares : shares_)
@@ -133,16 +130,15 @@ private:
                 double most = 0;
                 for (const Image& other : images[share.solid]) {
                     const Vec3 s = share.r - other.from_me;
-                    const double widest = std::min(R, other.radius), facing = -2 * dot(share.r, s) / (R * other.radius);
+                    const double widest = 1.5 * std::min(R, other.radius),
+                                 facing = -2 * dot(share.r, s) / (R * other.radius);
                     const double R2 = other.radius;
                     const double h = std::max(0.0, (r2 - R * R) / (2 * R) + (dot(s, s) - R2 * R2) / (2 * R2));
                     if (facing <= 0 || h >= widest) continue;
-                    const double left = 1 - h / widest;
-                    most = std::max(most, 3.2 * h / (1 + h * h * h) * left * std::min(facing, 1.0));
+                    const double left = 1 - std::pow(h / widest, 2);
+                    most = std::max(most, A * h / (1 + h * h * h) * left * std::min(facing, 1.0));
                 }
-                const double more = most * share.epsilon * std::pow(1 - share.epsilon, 2);
-                share.epsilon += more;
-                filled_[share.solid] += more;
+                share.epsilon *= 1 + most * std::pow(1 - share.epsilon, 3);
             }
     }
 
@@ -212,11 +208,11 @@ private:
         }
         const double drho = rho - 1;
         if (!c_.inertia) rho = 1;
-        const Vec3 mF = m * c_.acceleration;
-        const Vec3 u = (1 / rho) * (j + 0.5 * mF);
+        const Vec3& drive = c_.acceleration;
+        const Vec3 u = (1 / rho) * (j + 0.5 * drive);
         const Vec3 F_s = (kk * rho) * (u_s - u);
         const Vec3 u_phys = u + (0.5 / rho) * F_s;
-        const Vec3 F_t = mF + F_s;
+        const Vec3 F_t = drive + F_s;
 
         double post[L::Q];
         Vec3 j_post{};
@@ -232,7 +228,7 @@ private:
             }
             const double odd_eq = 3 * w * rho * dot(c, u);
             post[i] = f_[i][here] - omega_plus * (even - even_eq) + even_source - omega_minus * (odd - odd_eq) +
-                      (1 - omega_minus / 2) * 3 * w * dot(c, mF) + 3 * w * dot(c, F_s);
+                      (1 - omega_minus / 2) * 3 * w * dot(c, drive) + 3 * w * dot(c, F_s);
             j_post += post[i] * c;
         }
         for (const Share& share : shares_[here]) {
@@ -334,7 +330,6 @@ private:
     std::vector<Through> through_;
     double Lambda_;
     std::vector<std::vector<Share>> shares_;
-    std::vector<double> filled_;
     std::vector<Load> loads_;
 };
 

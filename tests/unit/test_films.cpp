@@ -111,7 +111,7 @@ class FilmsOfManySpheres : public CppUnit::TestFixture {
             std::size_t expected = 0;
             for (std::size_t i = 0; i < spheres.size(); ++i) {
                 const double above = spheres[i].centre[1] - spheres[i].radius;
-                expected += above < kWidestFilm && above >= -0.1 * spheres[i].radius;
+                expected += above < kWidestFilmAtWall && above >= -0.1 * spheres[i].radius;
                 for (std::size_t j = i + 1; j < spheres.size(); ++j)
                     for (int x = -3; x <= 3; ++x)
                         for (int z = -3; z <= 3; ++z) {

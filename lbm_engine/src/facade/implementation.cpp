@@ -302,9 +302,7 @@ SolidLoad Fluid::Implementation::load_in_si(std::size_t s, const LoadLedger::Loa
     SolidLoad si;
     si.force = units.force * load.force;
     si.torque = units.torque * load.torque;
-    // The pressure gradients that the lattice does not carry: hydrostatic, and the drive's.
-    si.force += ((map.volume(s) + map.filled(s)) * units.mass) * config.acceleration -
-                (map.volume(s) * units.mass) * config.gravity;
+    si.force -= (map.volume(s) * units.mass) * config.gravity;  // the lattice does not carry the hydrostatic pressure
     const Mat3& m = sums.first_moment;
     const double third = (m[0][0] + m[1][1] + m[2][2]) / 3;
     for (int a = 0; a < 3; ++a)

@@ -33,7 +33,7 @@ void read_row(const Populations<L, T>& populations, const CollisionParameters& p
         cell.epsilon = s.epsilon;
         cell.drho = before.drho;
         for (int d = 0; d < 3; ++d) {
-            // The collision adds m F + F_s to the momentum: halfway through, it is the velocity's.
+            // The collision adds F + F_s to the momentum: halfway through, it is the velocity's.
             cell.u[d] = 0.5 * (before.j[d] + answer.momentum[d]) / rho;
             cell.force[d] = answer.force[d];
             cell.momentum[d] = after.j[d];

@@ -97,7 +97,7 @@ void Films::search_around(std::int32_t first, const std::vector<FilmSphere>& sph
     for (int face = 0; face < 6; ++face) {
         const int d = face / 2;
         const double distance = face % 2 == 0 ? one.centre[d] : n_[d] - one.centre[d];
-        if (walls[face] && distance < one.radius + kWidestFilm + kMargin) near.push_back({first, -1 - face, {}});
+        if (walls[face] && distance < one.radius + kWidestFilmAtWall + kMargin) near.push_back({first, -1 - face, {}});
     }
     neighbours_.for_near(first, [&](std::int32_t second, const Vec3& shift) {
         if (second <= first) return;
@@ -183,9 +183,10 @@ void Films::make_films(const std::vector<FilmSphere>& spheres, double viscosity,
     for (const Place& place : part.near) {
         const FilmSphere& one = spheres[place.first];
         const double a1 = one.radius;
+        const bool wall = place.second < 0;
         double a2 = std::numeric_limits<double>::infinity(), distance = 0, gap = 0;
         Vec3 normal{};
-        if (place.second < 0) {
+        if (wall) {
             const int face = -1 - place.second, d = face / 2;
             distance = face % 2 == 0 ? centres_[place.first][d] : n_[d] - centres_[place.first][d];
             gap = distance - a1;
@@ -197,13 +198,13 @@ void Films::make_films(const std::vector<FilmSphere>& spheres, double viscosity,
             gap = distance - a1 - a2;
             normal = (1 / distance) * apart;
         }
-        const double a = place.second < 0 ? a1 : a1 * a2 / (a1 + a2);
-        if (!(gap < kWidestFilm && gap >= -kDeepestContact * a)) continue;
+        const double a = wall ? a1 : a1 * a2 / (a1 + a2);
+        if (!(gap < (wall ? kWidestFilmAtWall : kWidestFilm) && gap >= -kDeepestContact * a)) continue;
         const double open = std::max(gap, roughness_ * std::min(a1, a2));
-        const FilmResistance resistance = film_resistance(viscosity, a1, a2, open, seen_gaps(open, std::isinf(a2)));
+        const FilmResistance resistance = film_resistance(viscosity, a1, a2, open, seen_gaps(open, wall));
         Film film = make_film(normal, a1, a2, distance, resistance);
         film.lever[0] = one.lever;
-        if (place.second >= 0) film.lever[1] = spheres[place.second].lever;
+        if (!wall) film.lever[1] = spheres[place.second].lever;
         part.places.push_back(place);
         part.films.push_back(film);
     }

@@ -55,7 +55,7 @@ void rescale(Populations<L, T>& populations, const CollisionParameters& from, co
     for_cells(populations, from, inertia, solids, [&](const CellState& cell) {
         Target<L> before{cell.drho, inertia ? 1 + cell.drho : 1, {}, cell.u, {}, {}, inertia};
         for (int d = 0; d < 3; ++d) {
-            before.body_force[d] = (1 - cell.epsilon) * from.body_force[d];
+            before.body_force[d] = from.body_force[d];
             before.total_force[d] = before.body_force[d] + cell.force[d];
         }
         before.momentum = before.rho * before.u - 0.5 * cell.force;

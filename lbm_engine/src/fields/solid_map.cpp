@@ -297,7 +297,7 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, CutCells& cut,
         }
     fractions += kBlock;
     cut.gather();
-    solid.filled = solid.opposite.empty() ? 0 : cut.thicken(geometry.radius, solid.opposite);
+    if (!solid.opposite.empty()) cut.thicken(weighting_.pores, geometry.radius, solid.opposite);
     // A solid that moves gets a little more than it needs, and should not ask for memory again.
     const bool moves = !solid.fractions.empty();
     if (fractions > solid.fractions.capacity()) solid.fractions.reserve(fractions + (moves ? fractions / 8 : 0));

@@ -83,8 +83,6 @@ public:
     const LatticeSolid& solid(std::size_t s) const noexcept { return solids_[s].solid; }
     /// Inside the lattice; what a solid shares with earlier ones of its body is theirs.
     double volume(std::size_t s) const noexcept { return solids_[s].volume; }
-    /// Fluid in cut cells that counts to the solid: it takes the drive's part of it.
-    double filled(std::size_t s) const noexcept { return solids_[s].filled; }
     const RowUnits& units() const noexcept { return units_; }
 
     /**
@@ -113,7 +111,7 @@ public:
 private:
     struct MappedSolid {
         LatticeSolid solid;
-        double k = 0, volume = 0, filled = 0;
+        double k = 0, volume = 0;
         int y0 = 0, ny = 0, z0 = 0, nz = 0;  // rows, not wrapped
         int units_y = 0, units_z = 0;        // of rows, that they lie in; at most all
         std::vector<Opposite> opposite;      // that leave a narrow pore

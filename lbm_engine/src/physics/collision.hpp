@@ -30,7 +30,7 @@ using Scalar = typename ScalarOf<V>::type;
  */
 struct CollisionParameters {
     TrtRates rates;
-    double body_force[3];  ///< F = rho_0 * acceleration
+    double body_force[3];  ///< F = rho_0 * acceleration, in all cells, as the gradient of a pressure would act
     bool low_noise;        ///< parameter set of the weighting
     Scheme scheme = Scheme::exact;
 };
@@ -220,7 +220,7 @@ struct Saturation {
 /// What a partially saturated cell tells its solids.
 template <class V>
 struct Exchange {
-    V force[3];     ///< F_s, of the solids on the fluid
+    V force[3];     ///< F_s, of the solids on the fluid: the collision adds F + F_s to its momentum
     V momentum[3];  ///< sum f c after the collision
     V weight;       ///< kk rho
 };
@@ -258,7 +258,7 @@ template <class V>
  *
  *     kk   = k g eps Lp / (max(m, 0.02 g) + k g eps Lp / 2),   m = 1 - eps,   g = g(eps)
  *     Lm_c = Lm lam(eps),   omega-_c = 1 / (Lm_c + 1/2)
- *     u    = (sum f c + m F / 2) / rho
+ *     u    = (sum f c + F / 2) / rho
  *     F_s  = kk rho (u_s - u),   u_phys = u + F_s / (2 rho)
  *
  * @return with u_phys
@@ -281,11 +281,11 @@ template <class L, bool inertia, bool at_rest = false, class V>
     }
     out.weight = kk * rho;
     for (int d = 0; d < 3; ++d) {
-        const V mF = m * p.body_force[d];
-        const V momentum = mo.j[d] + 0.5 * mF;
+        const double F = p.body_force[d];
+        const V momentum = mo.j[d] + 0.5 * F;
         const V F_s = at_rest ? -kk * momentum : kk * (rho * cell.u_s[d] - momentum);
         sources.rho_u[d] = momentum + 0.5 * F_s;
-        total_force[d] = mF + F_s;
+        total_force[d] = F + F_s;
         sources.odd[d] = 0.5 * (omega_minus * mo.j[d] + total_force[d]);
         out.force[d] = F_s;
         out.momentum[d] = mo.j[d] + total_force[d];

@@ -12,7 +12,7 @@ namespace lbm {
  *     f- <- f- - a- (f- - e-(u)) + B (e-(u_s) - e-(u)) + sources of (1 - B) F
  *
  * where superposition [Holdych] keeps the rates of the fluid, a+- = omega+-, and the bounce-back of what is out of equilibrium [Noble & Torczynski]
- * has a+ = (1 - B) omega+, a- = (1 - B) omega- + 2 B. Bounce-back of all populations is the latter with B = 1 and u = u_s.
+ * has a+ = (1 - B) omega+, a- = (1 - B) omega- + 2 B. Bounce-back of all populations is the latter with B = 1 and u = u_s. The solids bear the rest of the drive, B F.
  */
 template <class V>
 struct PublishedWeight {
@@ -60,8 +60,8 @@ template <class L, bool inertia, class V>
         const V momentum = mo.j[d] + 0.5 * F[d];
         u[d] = momentum / rho;
         if (bounces) u[d] = weight.B > 0.5 ? u_s[d] : u[d];
-        out.force[d] = a_minus * (rho * u[d] - momentum) + weight.B * rho * (u_s[d] - u[d]);
-        out.momentum[d] = mo.j[d] + F[d] + out.force[d];
+        out.force[d] = a_minus * (rho * u[d] - momentum) + weight.B * (rho * (u_s[d] - u[d]) - p.body_force[d]);
+        out.momentum[d] = mo.j[d] + p.body_force[d] + out.force[d];
     }
     out.weight = (bounces ? 2 : 1) * weight.B * rho;
 

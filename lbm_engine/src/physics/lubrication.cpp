@@ -8,7 +8,7 @@ namespace {
 
 /**
  * How much wider than it is a gap looks to the lattice: at contact, and the gap from which on it looks as it is [cells]. Measured with spheres of 4 and 6
- * cells, which agree; docs/physics.md has the tables. Two spheres that slide or roll at gaps of 0.3 to 1.2 cells are overdone by a few per cent, which is left: films only take energy.
+ * cells, which agree; docs/physics.md has the tables. Two spheres that slide or roll at gaps of 0.3 to 1.2 cells are overdone by up to 6 %, when they roll 8 %, which is left: films only take energy.
  */
 struct Blur {
     double at_contact, until;
@@ -20,13 +20,13 @@ struct Blur {
     }
 };
 
-constexpr Blur kSlide{0.235, 0.55}, kPump{0.145, 1.75};
-constexpr Blur kSqueezeAtWall{0.3, kWidestFilm}, kPumpAtWall{0.17, 1.2};
+constexpr Blur kSlide{0.211, 0.63}, kPump{0.124, kWidestFilm};
+constexpr Blur kSqueezeAtWall{0.3, kWidestFilmAtWall}, kPumpAtWall{0.17, 1.2};
 
 double seen_squeeze(double gap)
 {
-    const double left = std::max(0.0, 1 - gap / kWidestFilm);
-    return gap + 0.257 * left * left / (1 + gap / 0.49);
+    const double left = std::max(0.0, 1 - gap / 0.75);
+    return gap + 0.228 * left * left;
 }
 
 /// Sliding along a wall is overdone between 0.2 and 0.85 cells, since the first layer of cells takes the sphere's velocity at its centre.

@@ -10,22 +10,23 @@ namespace {
 constexpr double kCut = 0.87;
 
 /// Pores that are wider than this, with the larger of two curvatures, are not narrow.
-double widest_pore(double curvature) { return 1 / curvature; }
+double widest_pore(double curvature) { return 1.5 / curvature; }
 
 /// The pore between a sphere and what stands opposite: what does not depend on the cell.
 struct Pore {
     Vec3 towards;
     double curvature1, curvature2;
     double distance;  ///< h = (curvature1 + curvature2) / 2 r^2 - r.towards + distance
-    double widest;
+    double widest, strength;
     double inner, outer;  ///< radii between which cut cells have their centres
 
-    Pore(double radius, const Opposite& other)
+    Pore(double strength_, double radius, const Opposite& other)
         : towards(other.towards)
         , curvature1(1 / radius)
         , curvature2(other.curvature)
         , distance(other.distance - 0.5 * radius)
         , widest(widest_pore(std::max(curvature1, curvature2)))
+        , strength(strength_)
         , inner(std::max(0.0, radius - kCut))
         , outer(radius + kCut)
     {
@@ -33,8 +34,9 @@ struct Pore {
 
     PoreShape shape() const
     {
-        return {towards,      0.5 * (curvature1 + curvature2), distance, 1 / widest, 2 * curvature1, curvature2,
-                inner * inner};
+        return {
+            towards,      0.5 * (curvature1 + curvature2), distance, 1 / widest, strength, 2 * curvature1, curvature2,
+            inner * inner};
     }
     struct Reach {
         double begin, end;
@@ -78,13 +80,13 @@ void CutCells::gather()
 }
 
 /// Works on whole packs: cells beyond the last one are empty.
-double CutCells::thicken(double radius, const std::vector<Opposite>& opposite)
+void CutCells::thicken(double strength, double radius, const std::vector<Opposite>& opposite)
 {
-    if (count_ == 0) return 0;  // a sphere outside of the lattice, beside its own images
+    if (count_ == 0) return;  // a sphere outside of the lattice, beside its own images
     const SphereKernels& kernels = sphere_kernels();
     std::fill_n(thickening_.data(), padded_to_packs(count_), 0.0);
     for (const Opposite& other : opposite) {
-        const Pore pore(radius, other);
+        const Pore pore(strength, radius, other);
         const auto reach = pore.reach_z();
         if (reach.end < reach.begin) continue;
         const auto plane = [&](double z) {  // the first cell of the first plane from z on
@@ -96,7 +98,7 @@ double CutCells::thicken(double radius, const std::vector<Opposite>& opposite)
         kernels.narrow(pore.shape(), place_[0].data() + first, place_[1].data() + first, place_[2].data() + first,
                        count, thickening_.data() + first);
     }
-    return kernels.thicken(thickening_.data(), count_, fraction_.data());
+    kernels.thicken(thickening_.data(), count_, fraction_.data());
 }
 
 }  // namespace lbm

@@ -33,14 +33,14 @@ struct Opposite {
 [[nodiscard]] double narrow_reach(double radius1, double radius2);
 
 /**
- * The cells that a sphere cuts, which count as more solid where other spheres stand opposite across a narrow pore: eps (1 + t (1 - eps)^2) instead of eps.
+ * The cells that a sphere cuts, which count as more solid where other spheres stand opposite across a narrow pore: eps (1 + t (1 - eps)^3) instead of eps.
  *
  * A pressure gradient drives flow through cut cells, which lets fluid slip along surfaces; against the flow of a narrow pore this counts (docs/physics.md,
  * "Narrow pores"). With r and s the places of a cell as seen from the two centres,
  *
- *     t = 3.2 h / (1 + h^3) (1 - h / w) min(1, -2 r.s / (R1 R2)),   h = (r^2 - R1^2) / (2 R1) + (s^2 - R2^2) / (2 R2),   w = min(R1, R2)
+ *     t = A h / (1 + h^3) (1 - (h / w)^2) min(1, -2 r.s / (R1 R2)),   h = (r^2 - R1^2) / (2 R1) + (s^2 - R2^2) / (2 R2),   w = 3/2 min(R1, R2)
  *
- * h being the width of the pore; the last factor fades it out where surfaces stand across to each other. The largest t counts.
+ * h being the width of the pore and A the strength (Weighting::pores); the last factor fades it out where surfaces stand across to each other. The largest t counts.
  */
 class CutCells {
 public:
@@ -52,11 +52,8 @@ public:
     /// Copies the fractions of all cells added, in this order.
     void gather();
 
-    /**
-     * Thickens the gathered cells.
-     * @return what was added [cells]
-     */
-    double thicken(double radius, const std::vector<Opposite>& opposite);
+    /// Thickens the gathered cells. @param strength  A
+    void thicken(double strength, double radius, const std::vector<Opposite>& opposite);
 
     std::size_t size() const noexcept { return count_; }
     const double* fractions() const noexcept { return fraction_.data(); }

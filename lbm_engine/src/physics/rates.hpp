@@ -53,29 +53,32 @@ template <class V>
  * The weighting of partially saturated cells: two parameter sets, both exact in tau.
  *
  *     LN  (lambda = 1/8)   lam(eps) = 1 + 10 eps (1 - eps)^2 - 0.96 eps^2,   g(eps) = 1 + 1.5 eps^2
- *                          D3Q19  k = 2.11 + 4.0 / R                                 D3Q27  k = 2.05 + 4.4 / R                                 other surfaces  2.4
+ *                          D3Q19  k = 2.3 + 3.5 / R                                  D3Q27  k = 2.25 + 3.9 / R                                other surfaces  2.4
  *     R   (any lambda)     lam(eps) = g(eps) = 1
- *                          D3Q19  k = 1.93 + 9.05 lambda + (1.9 + 17 lambda) / R     D3Q27  k = 1.64 + 11.7 lambda + (2.5 + 14.1 lambda) / R
+ *                          D3Q19  k = 1.84 + 10.2 lambda + (2.6 + 16 lambda) / R     D3Q27  k = 1.67 + 11.9 lambda + (2.7 + 16 lambda) / R
  *
  * lam scales Lm in a cut cell; k g is the strength of the solid force for a sphere of R cells; for other surfaces of set R that of an infinite one.
- * lam and g of set LN were fitted on exact solutions between planes of all orientations, k on the drag of a simple cubic array with exact solid fractions;
- * docs/physics.md has the derivation and the measurements.
+ * lam and g of set LN were fitted on exact solutions between planes of all orientations, k on the drag of a simple cubic array with exact solid fractions, and `pores`
+ * (CutCells), 5.4 in set LN and 7.1 - 10.4 lambda in set R, on dense arrays and a random pack; docs/physics.md has the derivation and the measurements.
  */
 struct Weighting {
     bool low_noise;
     double k_flat, k_curved, k_other;
+    double pores;  ///< how much more cut cells count in narrow pores between spheres
 
     constexpr Weighting(Lattice lattice, double lambda) : low_noise(lambda == kLambdaLowNoise)
     {
         const bool d3q19 = lattice == Lattice::d3q19;
         if (low_noise) {
-            k_flat = d3q19 ? 2.11 : 2.05;
-            k_curved = d3q19 ? 4.0 : 4.4;
+            k_flat = d3q19 ? 2.3 : 2.25;
+            k_curved = d3q19 ? 3.5 : 3.9;
             k_other = 2.4;
+            pores = 5.4;
         } else {
-            k_flat = d3q19 ? 1.93 + 9.05 * lambda : 1.64 + 11.7 * lambda;
-            k_curved = d3q19 ? 1.9 + 17 * lambda : 2.5 + 14.1 * lambda;
+            k_flat = d3q19 ? 1.84 + 10.2 * lambda : 1.67 + 11.9 * lambda;
+            k_curved = d3q19 ? 2.6 + 16 * lambda : 2.7 + 16 * lambda;
             k_other = k_flat;
+            pores = 7.1 - 10.4 * lambda;
         }
     }
 

@@ -75,7 +75,7 @@ struct CutRow {
 /// A pore between a sphere and what stands opposite (CutCells), in the form h = curvature r^2 - r.towards + distance.
 struct PoreShape {
     std::array<double, 3> towards;
-    double curvature, distance, over_widest;
+    double curvature, distance, over_widest, strength;
     double twice_curvature1, curvature2;
     double inner2;  ///< no cell whose centre is nearer than this, squared, is cut
 };
@@ -100,8 +100,8 @@ struct SphereKernels {
     /// Raises the thickening of cells, kPore at a time, by what a pore asks for.
     void (*narrow)(const PoreShape& pore, const double* x, const double* y, const double* z, std::size_t count,
                    double* thickening) noexcept;
-    /// Thickens fractions, in whole packs. @return what was added
-    double (*thicken)(const double* thickening, std::size_t count, double* fraction) noexcept;
+    /// Thickens fractions, in whole packs.
+    void (*thicken)(const double* thickening, std::size_t count, double* fraction) noexcept;
 };
 
 /// The widest variant that this processor runs. All variants give the same bits.

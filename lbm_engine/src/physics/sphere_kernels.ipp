@@ -176,8 +176,7 @@ void gather(const CutRow* row, const CutRow* end, double* fraction, double* x, d
 void narrow(const PoreShape& shape, const double* xs, const double* ys, const double* zs, std::size_t count,
             double* thickening) noexcept
 {
-    constexpr double kStrength = 3.2;  // fitted: docs/physics.md
-    const PoreShape pore = shape;      // which no store can change
+    const PoreShape pore = shape;  // which no store can change
     const V zero{}, one = all(1);
     for (std::size_t i = 0; i < count; i += kPore) {
         V h[kTogether], along[kTogether], r2[kTogether], t[kTogether];
@@ -194,10 +193,10 @@ void narrow(const PoreShape& shape, const double* xs, const double* ys, const do
         each([&](std::size_t n, std::size_t) __attribute__((always_inline)) {
             const V width = pore.curvature * r2[n] - along[n] + pore.distance;
             h[n] = width > 0 ? width : zero;
-            t[n] = kStrength * h[n] / (1 + h[n] * h[n] * h[n]);
+            t[n] = pore.strength * h[n] / (1 + h[n] * h[n] * h[n]);
         });
         each([&](std::size_t n, std::size_t at) __attribute__((always_inline)) {
-            const V narrow = 1 - h[n] * pore.over_widest, in_reach = narrow > 0 ? narrow : zero;
+            const V wide = h[n] * pore.over_widest, narrow = 1 - wide * wide, in_reach = narrow > 0 ? narrow : zero;
             const V facing = pore.twice_curvature1 * (along[n] - pore.curvature2 * r2[n]);  // -2 r.s / (R1 R2)
             const V asked = t[n] * in_reach * (facing < 1 ? facing : one);
             const V at_surface = r2[n] >= pore.inner2 ? asked : zero;  // not where parts of a body overlap
@@ -207,17 +206,12 @@ void narrow(const PoreShape& shape, const double* xs, const double* ys, const do
     }
 }
 
-double thicken(const double* thickening, std::size_t count, double* fraction) noexcept
+void thicken(const double* thickening, std::size_t count, double* fraction) noexcept
 {
-    V sums{};
     for (std::size_t i = 0; i < count; i += kWidth) {
-        const V eps = read(fraction + i), m = 1 - eps, more = read(thickening + i) * (eps * (m * m));
-        write(fraction + i, eps + more);
-        sums += more;
+        const V eps = read(fraction + i), m = 1 - eps;
+        write(fraction + i, eps + read(thickening + i) * (eps * m) * (m * m));
     }
-    double s[kPack];
-    write(s, sums);
-    return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
 }
 
 }  // namespace
