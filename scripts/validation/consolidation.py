@@ -64,7 +64,7 @@ def skempton_runs(quick):
 def inside(d, tau, time):
     """Part of a sphere's volume that a rise of the pressure at its surface has filled: diffusion through a porous ball of radius R - 1/2."""
     radius, nu = d / 2, (tau - 0.5) / 3
-    diffusivity = 0.02 / (9 * (2.11 + 4.0 / radius) * nu)  # permeability of a full cell times the bulk modulus over the viscosity
+    diffusivity = 0.02 / (9 * (2.3 + 3.5 / radius) * nu)  # permeability of a full cell times the bulk modulus over the viscosity
     m = np.arange(1, 200)
     return 1 - float((6 / (math.pi * m) ** 2 * np.exp(-((m * math.pi / (radius - 0.5)) ** 2) * diffusivity * time)).sum())
 
@@ -86,7 +86,7 @@ def skempton_text(results):
     lines = [(f"{r['modulus']:g}", f"{np.mean(r['base']):.4f} ± {np.ptp(r['base']) / 2:.4f}", f"{skempton(r['modulus'], 1):.4f}", f"{skempton(r['modulus'], POROSITY):.4f}")
              for r in of(results, loaded)]
     return f"""
-**The code follows `B_full_volume`.** The lattice's fluid is there inside the grains too, as a medium of small permeability (a full cell: 0.02 / (3 k), 1/470 of a cell squared at R = 4), and its pressure follows that around the grain. So a bed of
+**The code follows `B_full_volume`.** The lattice's fluid is there inside the grains too, as a medium of small permeability (a full cell: 0.02 / (3 k), 1/480 of a cell squared at R = 4), and its pressure follows that around the grain. So a bed of
 grains behaves as if its fluid had the bulk modulus n K_f instead of K_f, with K_f = rho dx^2 / (3 dt^2):
 
 {table(("E_oed / K_f", "p / q measured (± half the range: sound that is left)", "whole volume", "pores alone"), lines)}

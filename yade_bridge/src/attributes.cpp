@@ -86,7 +86,8 @@ const std::vector<Attribute>& attributes()
                           "Ids of the bodies in the fluid; empty (default): all. May be changed at any time."),
         YADELBM_ATTRIBUTE(
             "lubrication", lubrication, false,
-            "Adds what the lattice does not resolve of gaps below 2.9 cells between spheres, and between "
+            "Adds what the lattice does not resolve of gaps below one cell between spheres, and below 2.9 cells "
+            "between "
             "spheres and noSlip faces: forces and torques of approach, sliding and rolling. Default True; "
             "False where a contact law has its own lubrication."),
         YADELBM_ATTRIBUTE("lubricationRoughness", lubrication_roughness, false,

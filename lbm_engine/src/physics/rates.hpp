@@ -31,7 +31,7 @@ inline constexpr double kLambdaLowNoise = 0.125;
 inline constexpr double kLambdaPublished = 3.0 / 16;
 
 /// The fluid fraction over the gain, (1 - eps) / g, that the weight of a cell sees is at least this. A full cell then is a solid with a
-/// permeability of (1/470) dx^2 (R = 4): no flow to speak of, but its pressure settles in some hundred steps per unit of tau, where at 0 it would be frozen.
+/// permeability of (1/480) dx^2 (R = 4): no flow to speak of, but its pressure settles in some hundred steps per unit of tau, where at 0 it would be frozen.
 inline constexpr double kLeastFluidFraction = 0.02;
 
 /// lam(eps) of set LN (Weighting).
