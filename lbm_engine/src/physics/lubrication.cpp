@@ -25,8 +25,8 @@ constexpr Blur kSqueezeAtWall{0.3, kWidestFilmAtWall}, kPumpAtWall{0.17, 1.2};
 
 double seen_squeeze(double gap)
 {
-    const double left = std::max(0.0, 1 - gap / 0.75);
-    return gap + 0.228 * left * left;
+    const double left = std::max(0.0, 1 - gap / 0.71);
+    return gap + 0.209 * left * left;
 }
 
 /// Sliding along a wall is overdone between 0.2 and 0.85 cells, since the first layer of cells takes the sphere's velocity at its centre.
