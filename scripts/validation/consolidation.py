@@ -218,7 +218,7 @@ def terzaghi_rows(results):
 def terzaghi_text(results):
     lines = [(f"({r['shift'][0]:g}, {r['shift'][1]:g})", f"{r['permeability']:.4f}") for r in of(results, seepage)]
     return f"""
-Permeability of the stack of free grains [dx^2], by the place of the stack on the lattice (the exact one of the array is 0.161: a gradient of the pressure lets more pass than an acceleration at eight cells per diameter, docs/physics.md, "Driven by pressure"; the
+Permeability of the stack of free grains [dx^2], by the place of the stack on the lattice (the exact one of the array is 0.161; grains have eight cells, docs/physics.md, "Narrow pores"; the
 consolidation is compared with what was measured):
 
 {table(("place in the cell", "permeability"), lines)}
