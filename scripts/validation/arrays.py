@@ -132,13 +132,11 @@ Error of the drag, mean ± half range over the offsets, and the slope of the wor
 
 {convergence(results)}
 
-The constants of the scheme were fitted on the simple cubic array with c = 0.125, so errors of dilute arrays are small by
-construction and change sign; a slope through them means little. In narrow pores cut cells count more (docs/physics.md, "Narrow pores"), with one constant that was fitted on arrays of c = 0.3 to
-0.68 at 8 to 30 cells per diameter and a random pack; what is left changes sign with the resolution and the array. Cubes of more than 48 cells were run with two offsets, smaller ones with eight.
+The strength k of spheres was chosen by the simple cubic array with c = 0.125, so errors of dilute arrays are small by
+construction; a slope through them means little. In narrow pores cut cells count more (docs/physics.md, "Narrow pores"), with one constant for each Lambda that was fitted on arrays of c = 0.3 to
+0.68 at 8 to 24 cells per diameter and a random pack. Cubes of more than 48 cells were run with two offsets, smaller ones with eight. The drive acts as a difference of pressure would.
 
-From 24 cells per diameter on errors level off at 0.05 to 0.3 %, nearly all negative: walls stand 0.015 cells too far back whatever their orientation (docs/physics.md, "Where walls stand"), which falls with 1/d only.
-
-How an array lies to the lattice counts little (runs of their own): turned by 45 degrees about an axis the face-centred one of c = 0.5 (25 cells per diameter) has -0.25 and -0.28 % across and along it, upright -0.4 % at 16; the body-centred one -0.19 and -0.03 % (23 cells), upright -0.15 %.
+How an array lies to the lattice counts up to 0.5 % (runs of their own): turned by 45 degrees about an axis the face-centred one of c = 0.5 (15 cells per diameter) has -0.1 and -0.2 % across and along it, upright -0.6 %.
 """
 
 

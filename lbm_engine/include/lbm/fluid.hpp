@@ -71,7 +71,7 @@ public:
 
     /**
      * Goes on with another relaxation time, and so with another dt(), in the same flow: velocities, pressures, stresses and loads
-     * stay what they are (in steady Stokes flow exactly).
+     * stay what they are (in steady Stokes flow exactly; beside boxes that stand along the lattice, and with the published schemes, after some tens of steps).
      * @param tau  kMinTau to kMaxTau
      * @throws ConfigError  if it is outside, or the present speed would go beyond the Mach limit; nothing has changed then
      */
@@ -113,8 +113,8 @@ public:
     /// (m V) gives a sum that only drive, weight and walls change. It has had half a step less of the drive than the velocities.
     Vec3 total_momentum() const;
     /**
-     * The same for angular momentum about the origin of the coordinates [kg m2/s]: with the solids' own (m X x V and that of their spin) the sum changes by the torques of walls and weight
-     * alone, to round-off. In periodic directions there is no such law.
+     * The same for angular momentum about the origin of the coordinates [kg m2/s]: with the solids' own (m X x V and that of their spin) the sum changes by the torques of walls, weight and
+     * drive (density * acceleration * V_box at the middle of the box) alone, to round-off. In periodic directions there is no such law.
      */
     Vec3 total_angular_momentum() const;
     /// Volume of fluid per time (mass over `density`) that left the box through a face in the last step; through a periodic one too [m3/s].

@@ -63,7 +63,7 @@ struct FluidConfig {
     Lattice lattice = Lattice::d3q19;
     Storage storage = Storage::double_precision;
     bool lubrication =
-        true;  ///< Fluid::film_loads: what the lattice does not resolve of gaps below 2.9 cells; exact scheme only
+        true;  ///< Fluid::film_loads: what the lattice does not resolve of narrow gaps; exact scheme only
     double lubrication_roughness =
         1e-3;               ///< gap, in radii of the smaller sphere, below which films get no stronger, > 0
     double max_mach = 0.2;  ///< a step that goes beyond it ends the run, > 0
@@ -72,7 +72,7 @@ struct FluidConfig {
 
 inline constexpr double kMinTau = 0.505;  ///< below, no flow of interest was found stable
 inline constexpr double kMaxTau = 20.0;   ///< above, the slip of first order in the Knudsen number is no longer small
-/// Of the magic parameter. The resistance of solids is fitted for 1/12 to 1/4; at these ends the drag of a sphere is 1 % too high and 2 % too low, at 1 it is 6 % too low.
+/// Of the magic parameter. The resistance of solids is fitted for 1/12 to 1/4; at these ends the drag of a sphere is about 1 % too high and 1 to 2 % too low.
 inline constexpr double kMinLambda = 0.01, kMaxLambda = 0.5;
 inline constexpr double kMinRoughness = 1e-6, kMaxRoughness = 0.1;  ///< of films, in radii
 inline constexpr double kMaxDensityDeviation =

@@ -8,7 +8,7 @@ namespace {
 
 /**
  * How much wider than it is a gap looks to the lattice: at contact, and the gap from which on it looks as it is [cells]. Measured with spheres of 4 and 6
- * cells, which agree; docs/physics.md has the tables. Two spheres that slide or roll at gaps of 0.3 to 1.2 cells are overdone by up to 6 %, when they roll 8 %, which is left: films only take energy.
+ * cells, which agree; docs/physics.md has the tables. Two spheres that slide or roll at gaps of 0.4 to 1.2 cells are overdone by 5 to 7 %, which is left: films only take energy.
  */
 struct Blur {
     double at_contact, until;
@@ -25,7 +25,7 @@ constexpr Blur kSqueezeAtWall{0.3, kWidestFilmAtWall}, kPumpAtWall{0.17, 1.2};
 
 double seen_squeeze(double gap)
 {
-    const double left = std::max(0.0, 1 - gap / 0.71);
+    const double left = std::max(0.0, 1 - gap / kWidestSqueeze);
     return gap + 0.209 * left * left;
 }
 

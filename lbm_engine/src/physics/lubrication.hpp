@@ -22,8 +22,8 @@ struct FilmResistance {
     double pump = 0;     ///< traction per sum of them, as measured from the contact
 };
 
-/// Widest gap that is corrected, between spheres and at a wall [cells].
-inline constexpr double kWidestFilm = 0.97, kWidestFilmAtWall = 2.9;
+/// Widest gap that is corrected, between spheres and at a wall, and widest between spheres that resists a squeeze [cells].
+inline constexpr double kWidestFilm = 0.97, kWidestFilmAtWall = 2.9, kWidestSqueeze = 0.71;
 
 /// Gaps that the lattice seems to see in each of the motions [cells].
 struct SeenGaps {
