@@ -1,9 +1,8 @@
 #include "fields/solid_map.hpp"
 
 #include "fields/first_exception.hpp"
-#include "fields/populations.hpp"
+#include "fields/prefetch.hpp"
 #include "fields/wall_cells.hpp"
-#include "lattice/wrap.hpp"
 
 #include <omp.h>
 
@@ -12,108 +11,8 @@
 #include <limits>
 #include <numbers>
 #include <unordered_map>
-#include <utility>
 
 namespace lbm {
-namespace {
-
-/// Goes along an axis, over cells that need not be wrapped, unit by unit.
-struct Walk {
-    int left;        ///< cells, from this one on
-    int n, size;     ///< cells of the lattice, and in a unit
-    int cell;        ///< wrapped
-    int image = 0;   ///< not wrapped it is cell + image n
-    int passed = 0;  ///< units, a single one that is met again not counted
-
-    Walk(int first, int count, int n_, int size_) : left(count), n(n_), size(size_), cell(first)
-    {
-        // Solids reach into the next image, rarely further.
-        if (cell < -n || cell >= 2 * n) {
-            cell = wrap(cell, n);
-            image = (first - cell) / n;
-        } else if (cell < 0) {
-            cell += n;
-            image = -1;
-        } else if (cell >= n) {
-            cell -= n;
-            image = 1;
-        }
-    }
-    int unit() const { return cell / size; }
-    /// Cells from this one on in its unit and image.
-    int count() const { return std::min({left, size - cell % size, n - cell}); }
-    void next()
-    {
-        const int cells = count();
-        left -= cells;
-        cell += cells;
-        if (cell < n) {
-            ++passed;
-            return;
-        }
-        cell = 0;
-        ++image;
-        passed += n > size;
-    }
-};
-
-/// Units in which `count` cells from `first` on lie.
-int units_along(int first, int count, int n, int size)
-{
-    int units = 1;
-    for (Walk walk(first, count, n, size); walk.left > 0; walk.next()) units = walk.passed + 1;
-    return std::min(units, (n + size - 1) / size);
-}
-
-/// Of units that a solid meets again behind a periodic face the sums are the same.
-int own_unit(int unit, int units) { return unit < units ? unit : unit % units; }
-
-/// Into which periodic faces cut a span.
-inline std::uint32_t pieces_of(const Span& span, int nx)
-{
-    if (span.x0 >= 0 && span.x0 + span.n <= nx) return 1;
-    return (wrap(span.x0, nx) + span.n + nx - 1) / nx;
-}
-
-/// The first n cells of a piece, or all; leaves the others, from x = 0 on.
-Piece cut(Piece& piece, int n)
-{
-    Piece first = piece;
-    first.n = std::min(n, piece.n);
-    const int full = std::clamp<int>(first.n - piece.before, 0, piece.full);
-    first.before = static_cast<std::uint8_t>(std::min<int>(piece.before, first.n));
-    first.full = static_cast<std::uint16_t>(full);
-    piece.fractions += first.n - full;
-    piece.before -= first.before;
-    piece.full -= first.full;
-    piece.n -= first.n;
-    piece.x0 = 0;
-    return first;
-}
-
-/// Asks for memory that will be read or written soon: what solids have of their own lies scattered, far from the caches.
-template <class T>
-void prefetch(const T* begin, const T* end)
-{
-    for (auto line = reinterpret_cast<const char*>(begin); line < reinterpret_cast<const char*>(end);
-         line += kCacheLine)
-        __builtin_prefetch(line);
-}
-template <class T>
-void prefetch(const std::vector<T>& list)
-{
-    prefetch(list.data(), list.data() + list.size());
-}
-
-}  // namespace
-
-RowUnits::RowUnits(int ny_, int nz_) : ny(ny_), nz(nz_)
-{
-    constexpr int kUnits = 64;  // at most, about
-    planes = (nz + kUnits - 1) / kUnits;
-    const int parts = std::max(1, kUnits / nz);
-    rows = (ny + parts - 1) / parts;
-}
 
 SolidMap::SolidMap(const std::array<int, 3>& cells, const std::array<bool, 3>& periodic,
                    const std::array<bool, 6>& mirrors, const Weighting& weighting, bool thicken)
@@ -266,8 +165,8 @@ void SolidMap::map(MappedSolid& solid, SolidFraction& fraction, CutCells& cut,
                    const std::vector<SolidGeometry>& others) const
 {
     const SolidGeometry& geometry = solid.solid.geometry;
-    lbm::prefetch(solid.spans);
-    lbm::prefetch(solid.fractions);
+    prefetch_memory(solid.spans);
+    prefetch_memory(solid.fractions);
     fraction.evaluate(geometry, others);
     solid.k = k(geometry);
     measure(solid, fraction, geometry.shape == Shape::sphere && others.empty());
@@ -338,88 +237,6 @@ void SolidMap::measure(MappedSolid& solid, const SolidFraction& fraction, bool l
     solid.volume = lone_sphere ? whole - outside : inside;
 }
 
-/// Calls body(row, span, row as the solid sees it) for all spans with cells in the rows visited.
-template <class Body>
-void SolidMap::for_spans(const std::vector<Visit>& visits, Body body) const
-{
-    constexpr std::ptrdiff_t kAhead = 3;
-    const Visit* const end = visits.data() + visits.size();
-    for (const Visit* visit = visits.data(); visit != end; ++visit) {
-        if (end - visit > kAhead)
-            lbm::prefetch(visit[kAhead].spans, visit[kAhead].spans + visit[kAhead].planes * visit[kAhead].next_plane);
-        for (int k = 0; k < visit->planes; ++k) {
-            const Span* const span = visit->spans + static_cast<std::ptrdiff_t>(k) * visit->next_plane;
-            const std::size_t row = visit->row + static_cast<std::size_t>(k) * n_[1];
-            for (int j = 0; j < visit->rows; ++j)
-                if (span[j].n > 0) body(row + j, span[j], visit->seen);
-        }
-    }
-}
-
-/// Sorts the spans by row, cut at periodic faces; within a row they stand in the order of the solids.
-void SolidMap::list_rows()
-{
-    std::size_t pieces = 0;
-    sums_begin_.resize(solids_.size() + 1);
-    sums_begin_[0] = 0;
-    visits_.resize(units_.count());
-    for (auto& visits : visits_) visits.clear();
-    for (std::size_t s = 0; s < solids_.size(); ++s) {
-        const MappedSolid& solid = solids_[s];
-        pieces += solid.pieces;
-        sums_begin_[s + 1] = sums_begin_[s] + solid.units_y * solid.units_z;
-        for (Walk z(solid.z0, solid.nz, n_[2], units_.planes); z.left > 0; z.next())
-            for (Walk y(solid.y0, solid.ny, n_[1], units_.rows); y.left > 0; y.next()) {
-                const int unit = own_unit(z.passed, solid.units_z) * solid.units_y + own_unit(y.passed, solid.units_y);
-                visits_[z.unit() * units_.along_y() + y.unit()].push_back(
-                    {{static_cast<std::int32_t>(s),
-                      {0, static_cast<std::int8_t>(y.image), static_cast<std::int8_t>(z.image)},
-                      static_cast<std::uint8_t>(unit)},
-                     solid.spans.data() + (solid.nz - z.left) * solid.ny + (solid.ny - y.left),
-                     y.count(),
-                     z.count(),
-                     solid.ny,
-                     static_cast<std::uint32_t>(z.cell * n_[1] + y.cell)});
-            }
-    }
-    sums_.resize(sums_begin_.back());
-    pieces_.resize(pieces);
-    std::atomic<std::uint32_t> listed{0};
-#pragma omp parallel for schedule(dynamic) if (solids_.size() > 8)
-    for (int unit = 0; unit < units_.count(); ++unit) list_rows_of(unit, listed);
-}
-
-/// @param listed  pieces, of this and other units
-void SolidMap::list_rows_of(int unit, std::atomic<std::uint32_t>& listed)
-{
-    for_rows_of(units_, unit, [&](std::size_t row, int, int) { row_end_[row] = 0; });
-    const int nx = n_[0];
-    std::uint32_t count = 0;
-    for_spans(visits_[unit], [&](std::size_t row, const Span& span, const RowOfSolid&) {
-        const std::uint32_t pieces = pieces_of(span, nx);
-        row_end_[row] += pieces;
-        count += pieces;
-    });
-    std::uint32_t next = listed.fetch_add(count);
-    for_rows_of(units_, unit, [&](std::size_t row, int, int) {
-        row_begin_[row] = next;
-        next += std::exchange(row_end_[row], next);
-    });
-    for_spans(visits_[unit], [&](std::size_t row, const Span& span, const RowOfSolid& seen) {
-        Piece* piece = &pieces_[row_end_[row]];
-        if (span.x0 >= 0 && span.x0 + span.n <= nx) {
-            static_cast<Span&>(*piece) = span;
-            static_cast<RowOfSolid&>(*piece) = seen;
-            ++row_end_[row];
-            return;
-        }
-        Piece rest{span, seen};
-        rest.x0 = wrap(span.x0, nx);
-        rest.image[0] = static_cast<std::int8_t>((span.x0 - rest.x0) / nx);
-        for (; rest.n > 0; ++rest.image[0], ++row_end_[row]) *piece++ = cut(rest, nx - rest.x0);
-    });
-}
-
 void SolidMap::scale_velocities(double s)
 {
     for (MappedSolid& solid : solids_) {
@@ -427,24 +244,6 @@ void SolidMap::scale_velocities(double s)
         solid.solid.angular_velocity = s * solid.solid.angular_velocity;
     }
     tell_rows();
-}
-
-void SolidMap::tell_rows()
-{
-    row_solids_.resize(solids_.size());
-    all_fixed_ = std::all_of(solids_.begin(), solids_.end(), [](const MappedSolid& m) { return m.solid.fixed; });
-    const auto count = static_cast<std::ptrdiff_t>(solids_.size());
-#pragma omp parallel for schedule(static) if (count > 256)
-    for (std::ptrdiff_t s = 0; s < count; ++s) {
-        const MappedSolid& m = solids_[s];
-        row_solids_[s] = {m.solid.geometry.centre,
-                          m.solid.velocity,
-                          m.solid.angular_velocity,
-                          m.k,
-                          sums_begin_[s],
-                          m.fractions.data(),
-                          m.bounce.empty() ? nullptr : m.bounce.data()};
-    }
 }
 
 std::size_t SolidMap::memory_bytes() const

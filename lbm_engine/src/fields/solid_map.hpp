@@ -3,12 +3,12 @@
 #include "fields/lattice_solid.hpp"
 #include "fields/narrow_pores.hpp"
 #include "fields/row_saturation.hpp"
+#include "fields/row_units.hpp"
 #include "fields/solid_row.hpp"
 #include "lattice/vec3.hpp"
 #include "physics/rates.hpp"
 #include "physics/solid_fraction.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <vector>
@@ -30,38 +30,6 @@ struct SolidSums {
         return {m[1][2] - m[2][1], m[2][0] - m[0][2], m[0][1] - m[1][0]};
     }
 };
-
-/**
- * The rows of the lattice in units of neighbouring ones: planes, or parts of planes where there are few. A unit is swept by one thread, in order; units
- * depend on the lattice alone, so that sums within them, added up unit by unit, do not depend on the number of threads.
- */
-struct RowUnits {
-    int ny, nz;
-    int rows, planes;  ///< of a unit; the last ones may have fewer
-
-    RowUnits(int ny_, int nz_);
-    int along_y() const noexcept { return (ny + rows - 1) / rows; }
-    int along_z() const noexcept { return (nz + planes - 1) / planes; }
-    int count() const noexcept { return along_y() * along_z(); }
-};
-
-/// Calls body(row, y, z) for all rows of a unit.
-template <class Body>
-void for_rows_of(const RowUnits& units, int unit, Body body)
-{
-    const int along_y = units.along_y(), y0 = unit % along_y * units.rows, z0 = unit / along_y * units.planes;
-    for (int z = z0; z < std::min(z0 + units.planes, units.nz); ++z)
-        for (int y = y0; y < std::min(y0 + units.rows, units.ny); ++y)
-            body(static_cast<std::size_t>(z) * units.ny + y, y, z);
-}
-
-/// The same for all rows; to be called by all threads of a team, which share the units.
-template <class Body>
-void for_rows(const RowUnits& units, Body body)
-{
-#pragma omp for schedule(static)
-    for (int unit = 0; unit < units.count(); ++unit) for_rows_of(units, unit, body);
-}
 
 /**
  * Which cells the solids cover, and how much: for every solid the spans of its rows with exact fractions, and for every

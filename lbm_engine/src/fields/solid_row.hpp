@@ -2,6 +2,7 @@
 
 #include "fields/row_saturation.hpp"
 #include "lattice/vec3.hpp"
+#include "lattice/wrap.hpp"
 
 #include <cstdint>
 
@@ -24,6 +25,13 @@ struct Span {
     std::uint16_t full;   ///< cells without: all 1
     std::uint8_t before;  ///< cells with fractions before those without
 };
+
+/// Into which periodic faces cut a span.
+inline std::uint32_t pieces_of(const Span& span, int nx)
+{
+    if (span.x0 >= 0 && span.x0 + span.n <= nx) return 1;
+    return (wrap(span.x0, nx) + span.n + nx - 1) / nx;
+}
 
 /// A row of the lattice as a solid in it sees it.
 struct RowOfSolid {
