@@ -121,7 +121,9 @@ private:
     /// Cells that a sphere cuts count more where another sphere stands opposite (docs/physics.md, "Narrow pores").
     void thicken(const std::vector<Solid>& solids)
     {
-        const double A = Lambda_ == 0.125 ? 5.4 : 7.1 - 10.4 * Lambda_;
+        const bool low_noise = Lambda_ == 0.125;
+        const double A = low_noise ? 5 : 7.1 - 10.4 * Lambda_, B = low_noise ? 0.4 : 0, C = low_noise ? 1.2 : 2,
+                     reach = low_noise ? 2 : 1.5;
         std::vector<std::vector<Image>> images;
         for (std::size_t s = 0; s < solids.size(); ++s) images.push_back(images_of_others(solids, s));
         for (auto& shares : shares_)
@@ -130,13 +132,13 @@ private:
                 double most = 0;
                 for (const Image& other : images[share.solid]) {
                     const Vec3 s = share.r - other.from_me;
-                    const double widest = 1.5 * std::min(R, other.radius),
-                                 facing = -2 * dot(share.r, s) / (R * other.radius);
+                    const double widest = reach * std::min(R, other.radius),
+                                 facing = -C * dot(share.r, s) / (R * other.radius);
                     const double R2 = other.radius;
                     const double h = std::max(0.0, (r2 - R * R) / (2 * R) + (dot(s, s) - R2 * R2) / (2 * R2));
                     if (facing <= 0 || h >= widest) continue;
                     const double left = 1 - std::pow(h / widest, 2);
-                    most = std::max(most, A * h / (1 + h * h * h) * left * std::min(facing, 1.0));
+                    most = std::max(most, (A + B * h) * h / (1 + h * h * h) * left * std::min(facing, 1.0));
                 }
                 share.epsilon *= 1 + most * std::pow(1 - share.epsilon, 3);
             }
@@ -195,8 +197,8 @@ private:
             u_s = (1 / sum) * u_s;
         }
         const bool low_noise = Lambda_ == 0.125;
-        const double lam = low_noise ? 1 + 10 * eps * std::pow(1 - eps, 2) - 0.96 * eps * eps : 1;
-        const double g = low_noise ? 1 + 1.5 * eps * eps : 1;
+        const double lam = low_noise ? 1 + 8 * eps * std::pow(1 - eps, 2) - 0.96 * eps * eps : 1;
+        const double g = low_noise ? 1 + 2 * eps * eps : 1;
         const double kk = g * k_eps * Lp / (std::max(m, 0.02 * g) + g * k_eps * Lp / 2);
         const double omega_plus = 1 / c_.tau, omega_minus = 1 / (Lm * lam + 0.5);
 

@@ -26,7 +26,7 @@ constexpr Blur kSqueezeAtWall{0.3, kWidestFilmAtWall}, kPumpAtWall{0.17, 1.2};
 double seen_squeeze(double gap)
 {
     const double left = std::max(0.0, 1 - gap / kWidestSqueeze);
-    return gap + 0.209 * left * left;
+    return gap + 0.205 * left * left;
 }
 
 /// Sliding along a wall is overdone between 0.2 and 0.85 cells, since the first layer of cells takes the sphere's velocity at its centre.

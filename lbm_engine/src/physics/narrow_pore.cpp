@@ -9,24 +9,26 @@ namespace {
 /// Half a diagonal: the centres of cells that a surface cuts are so near it.
 constexpr double kCut = 0.87;
 
-/// Pores that are wider than this, with the larger of two curvatures, are not narrow.
-double widest_pore(double curvature) { return 1.5 / curvature; }
+/// The widest pores of any law that are narrow, in radii of the smaller sphere.
+constexpr double kWidestPore = 2;
 
 /// The pore between a sphere and what stands opposite: what does not depend on the cell.
 struct Pore {
     Vec3 towards;
     double curvature1, curvature2;
     double distance;  ///< h = (curvature1 + curvature2) / 2 r^2 - r.towards + distance
-    double widest, strength;
+    double widest, near, far, facing;
     double inner, outer;  ///< radii between which cut cells have their centres
 
-    Pore(double strength_, double radius, const Opposite& other)
+    Pore(const PoreLaw& law, double radius, const Opposite& other)
         : towards(other.towards)
         , curvature1(1 / radius)
         , curvature2(other.curvature)
         , distance(other.distance - 0.5 * radius)
-        , widest(widest_pore(std::max(curvature1, curvature2)))
-        , strength(strength_)
+        , widest(law.widest / std::max(curvature1, curvature2))
+        , near(law.near)
+        , far(law.far)
+        , facing(law.facing)
         , inner(std::max(0.0, radius - kCut))
         , outer(radius + kCut)
     {
@@ -34,9 +36,15 @@ struct Pore {
 
     PoreShape shape() const
     {
-        return {
-            towards,      0.5 * (curvature1 + curvature2), distance, 1 / widest, strength, 2 * curvature1, curvature2,
-            inner * inner};
+        return {towards,
+                0.5 * (curvature1 + curvature2),
+                distance,
+                1 / widest,
+                near,
+                far,
+                facing * curvature1,
+                curvature2,
+                inner * inner};
     }
     struct Reach {
         double begin, end;
@@ -59,7 +67,7 @@ struct Pore {
 
 double narrow_reach(double radius1, double radius2)
 {
-    const double widest = widest_pore(1 / std::min(radius1, radius2));
+    const double widest = kWidestPore * std::min(radius1, radius2);
     return radius1 + std::sqrt(radius2 * radius2 + 2 * radius2 * (widest + kCut));
 }
 
@@ -80,13 +88,13 @@ void CutCells::gather()
 }
 
 /// Works on whole packs: cells beyond the last one are empty.
-void CutCells::thicken(double strength, double radius, const std::vector<Opposite>& opposite)
+void CutCells::thicken(const PoreLaw& law, double radius, const std::vector<Opposite>& opposite)
 {
     if (count_ == 0) return;  // a sphere outside of the lattice, beside its own images
     const SphereKernels& kernels = sphere_kernels();
     std::fill_n(thickening_.data(), padded_to_packs(count_), 0.0);
     for (const Opposite& other : opposite) {
-        const Pore pore(strength, radius, other);
+        const Pore pore(law, radius, other);
         const auto reach = pore.reach_z();
         if (reach.end < reach.begin) continue;
         const auto plane = [&](double z) {  // the first cell of the first plane from z on

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lattice/vec3.hpp"
+#include "physics/rates.hpp"
 #include "physics/sphere_kernels.hpp"
 
 #include <array>
@@ -38,9 +39,9 @@ struct Opposite {
  * A pressure gradient drives flow through cut cells, which lets fluid slip along surfaces; against the flow of a narrow pore this counts (docs/physics.md,
  * "Narrow pores"). With r and s the places of a cell as seen from the two centres,
  *
- *     t = A h / (1 + h^3) (1 - (h / w)^2) min(1, -2 r.s / (R1 R2)),   h = (r^2 - R1^2) / (2 R1) + (s^2 - R2^2) / (2 R2),   w = 3/2 min(R1, R2)
+ *     t = (A + B h) h / (1 + h^3) (1 - (h / w)^2) min(1, -C r.s / (R1 R2)),   h = (r^2 - R1^2) / (2 R1) + (s^2 - R2^2) / (2 R2)
  *
- * h being the width of the pore and A the strength (Weighting::pores); the last factor fades it out where surfaces stand across to each other. The largest t counts.
+ * h being the width of the pore and A, B, C and w of the law (Weighting::pores); the last factor fades it out where surfaces stand across to each other. The largest t counts.
  */
 class CutCells {
 public:
@@ -52,8 +53,8 @@ public:
     /// Copies the fractions of all cells added, in this order.
     void gather();
 
-    /// Thickens the gathered cells. @param strength  A
-    void thicken(double strength, double radius, const std::vector<Opposite>& opposite);
+    /// Thickens the gathered cells of a sphere.
+    void thicken(const PoreLaw& law, double radius, const std::vector<Opposite>& opposite);
 
     std::size_t size() const noexcept { return count_; }
     const double* fractions() const noexcept { return fraction_.data(); }

@@ -39,46 +39,54 @@ template <class V>
 [[nodiscard]] constexpr V low_noise_lam(const V& epsilon)
 {
     const V m = 1 - epsilon;
-    return 1 + epsilon * (10 * (m * m) - 0.96 * epsilon);
+    return 1 + epsilon * (8 * (m * m) - 0.96 * epsilon);
 }
 
 /// g(eps) of set LN (Weighting).
 template <class V>
 [[nodiscard]] constexpr V low_noise_gain(const V& epsilon)
 {
-    return 1 + 1.5 * (epsilon * epsilon);
+    return 1 + 2 * (epsilon * epsilon);
 }
+
+/// How much more cut cells count in narrow pores between spheres (CutCells).
+struct PoreLaw {
+    double near;    ///< A
+    double far;     ///< B
+    double facing;  ///< C
+    double widest;  ///< w, in radii of the smaller sphere
+};
 
 /**
  * The weighting of partially saturated cells: two parameter sets, both exact in tau.
  *
- *     LN  (lambda = 1/8)   lam(eps) = 1 + 10 eps (1 - eps)^2 - 0.96 eps^2,   g(eps) = 1 + 1.5 eps^2
- *                          D3Q19  k = 2.3 + 3.5 / R                                  D3Q27  k = 2.25 + 3.9 / R                                other surfaces  2.4
+ *     LN  (lambda = 1/8)   lam(eps) = 1 + 8 eps (1 - eps)^2 - 0.96 eps^2,   g(eps) = 1 + 2 eps^2
+ *                          D3Q19  k = 2.04 + 3.4 / R                                 D3Q27  k = 1.99 + 3.8 / R                                other surfaces  2.17
  *     R   (any lambda)     lam(eps) = g(eps) = 1
  *                          D3Q19  k = 1.84 + 10.2 lambda + (2.6 + 16 lambda) / R     D3Q27  k = 1.67 + 11.9 lambda + (2.7 + 16 lambda) / R
  *
  * lam scales Lm in a cut cell; k g is the strength of the solid force for a sphere of R cells; for other surfaces of set R that of an infinite one.
- * lam and g of set LN were fitted on exact solutions between planes of all orientations, k on the drag of a simple cubic array with exact solid fractions, and `pores`
- * (CutCells), 5.4 in set LN and 7.1 - 10.4 lambda in set R, on dense arrays and a random pack; docs/physics.md has the derivation and the measurements.
+ * lam and g of set LN were fitted on exact solutions between planes of all orientations, k on the drag of dilute arrays (set R: of one with c = 0.125) with exact solid
+ * fractions, and `pores` on dense arrays and a random pack; docs/physics.md has the derivation and the measurements.
  */
 struct Weighting {
     bool low_noise;
     double k_flat, k_curved, k_other;
-    double pores;  ///< how much more cut cells count in narrow pores between spheres
+    PoreLaw pores;
 
     constexpr Weighting(Lattice lattice, double lambda) : low_noise(lambda == kLambdaLowNoise)
     {
         const bool d3q19 = lattice == Lattice::d3q19;
         if (low_noise) {
-            k_flat = d3q19 ? 2.3 : 2.25;
-            k_curved = d3q19 ? 3.5 : 3.9;
-            k_other = 2.4;
-            pores = 5.4;
+            k_flat = d3q19 ? 2.04 : 1.99;
+            k_curved = d3q19 ? 3.4 : 3.8;
+            k_other = 2.17;
+            pores = {5, 0.4, 1.2, 2};
         } else {
             k_flat = d3q19 ? 1.84 + 10.2 * lambda : 1.67 + 11.9 * lambda;
             k_curved = d3q19 ? 2.6 + 16 * lambda : 2.7 + 16 * lambda;
             k_other = k_flat;
-            pores = 7.1 - 10.4 * lambda;
+            pores = {7.1 - 10.4 * lambda, 0, 2, 1.5};
         }
     }
 

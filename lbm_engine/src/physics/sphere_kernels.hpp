@@ -75,8 +75,8 @@ struct CutRow {
 /// A pore between a sphere and what stands opposite (CutCells), in the form h = curvature r^2 - r.towards + distance.
 struct PoreShape {
     std::array<double, 3> towards;
-    double curvature, distance, over_widest, strength;
-    double twice_curvature1, curvature2;
+    double curvature, distance, over_widest, near, far;
+    double facing, curvature2;  ///< C / R1 and 1 / R2
     double inner2;  ///< no cell whose centre is nearer than this, squared, is cut
 };
 

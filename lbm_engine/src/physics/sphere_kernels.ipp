@@ -193,11 +193,11 @@ void narrow(const PoreShape& shape, const double* xs, const double* ys, const do
         each([&](std::size_t n, std::size_t) __attribute__((always_inline)) {
             const V width = pore.curvature * r2[n] - along[n] + pore.distance;
             h[n] = width > 0 ? width : zero;
-            t[n] = pore.strength * h[n] / (1 + h[n] * h[n] * h[n]);
+            t[n] = (pore.near + pore.far * h[n]) * h[n] / (1 + h[n] * h[n] * h[n]);
         });
         each([&](std::size_t n, std::size_t at) __attribute__((always_inline)) {
             const V wide = h[n] * pore.over_widest, narrow = 1 - wide * wide, in_reach = narrow > 0 ? narrow : zero;
-            const V facing = pore.twice_curvature1 * (along[n] - pore.curvature2 * r2[n]);  // -2 r.s / (R1 R2)
+            const V facing = pore.facing * (along[n] - pore.curvature2 * r2[n]);  // -C r.s / (R1 R2)
             const V asked = t[n] * in_reach * (facing < 1 ? facing : one);
             const V at_surface = r2[n] >= pore.inner2 ? asked : zero;  // not where parts of a body overlap
             const V before = read(thickening + at);
