@@ -52,6 +52,31 @@ def a_long_grain_step_is_divided():
     check(fluid.fluidSteps == 2 * round(1 / plan.stepsPerFluidStep) > 2, "%d fluid steps in two" % fluid.fluidSteps)
 
 
+def light_grains_may_have_long_steps():
+    """A light sphere that spins and a light clump, in a liquid that stops them in a few of its steps."""
+    gravity = (0, 0, -9.81)
+
+    def velocities(fluid_steps, grain_steps):
+        O.reset()
+        light = O.materials.append(FrictMat(density=200))
+        lone = O.bodies.append(sphere((8.2e-3, 12.1e-3, 8e-3), 4e-3, material=light))
+        clump, _ = O.bodies.appendClumped(
+            [sphere((17e-3, 12e-3, 14e-3), 3e-3, material=light), sphere((20e-3, 12e-3, 14e-3), 3e-3, material=light)]
+        )
+        O.bodies[lone].state.vel = (0.02, 0, 0)
+        O.bodies[lone].state.angVel = (0, 0, 5)
+        fluid = box((26, 24, 22), viscosity=1, tau=TAU, boundary=["noSlip"] * 6, gravity=gravity, lubrication=False)
+        O.engines = engines(fluid, gravity)
+        O.dt = fluid_steps * fluid_step(TAU, viscosity=1)
+        O.run(grain_steps, True)
+        lone, clump = O.bodies[lone].state, O.bodies[clump].state
+        return [lone.vel.norm(), lone.angVel.norm(), clump.vel.norm(), clump.angVel.norm()]
+
+    for exact, found in zip(velocities(1, 200), velocities(40, 5)):
+        # Places differ a little on the way: measured 2e-3 and less. Held at its velocity for the whole step the sphere is thrown out.
+        check_close(found, exact, 5e-3 * exact, "velocity or spin after 40 fluid steps in each grain step")
+
+
 def the_two_clocks_stay_together():
     fluid = one_sphere((4, 4, 4), radius=2e-3, tau=TAU, **DRIVE)
     O.dt = STEP / 3
@@ -133,6 +158,7 @@ prove(
     other_ratios_step_when_their_time_comes,
     a_given_tau_stays,
     a_long_grain_step_is_divided,
+    light_grains_may_have_long_steps,
     the_two_clocks_stay_together,
     another_time_step_of_the_grains_is_followed,
     a_time_stepper_behind_the_fluid_is_followed,

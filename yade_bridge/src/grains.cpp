@@ -68,26 +68,34 @@ lbm::Solid solid(const Body& body, double lead, const State& moving)
     return result;
 }
 
-struct Wrench {
-    yade::Vector3r force = yade::Vector3r::Zero(), torque = yade::Vector3r::Zero();
+yade::Vector3r vector3r(const lbm::Vec3& v) { return {v[0], v[1], v[2]}; }
+
+/// Linear and angular.
+struct Impulse {
+    yade::Vector3r linear = yade::Vector3r::Zero(), angular = yade::Vector3r::Zero();
 };
 
-Wrench wrench_on(yade::Scene& scene, Body::id_t id) { return {scene.forces.getForce(id), scene.forces.getTorque(id)}; }
+Impulse impulse_on(yade::Scene& scene, double dt, const HeldLoads& owed, Body::id_t id)
+{
+    const HeldLoads::Impulse more = owed.owed(id);
+    return {dt * scene.forces.getForce(id) + vector3r(more.linear),
+            dt * scene.forces.getTorque(id) + vector3r(more.angular)};
+}
 
 /// What the clumps get themselves and through their members, solids of the fluid or not.
-std::unordered_map<int, Wrench> wrenches_on_clumps(yade::Scene& scene)
+std::unordered_map<int, Impulse> impulses_on_clumps(yade::Scene& scene, double dt, const HeldLoads& owed)
 {
-    std::unordered_map<int, Wrench> wrenches;
+    std::unordered_map<int, Impulse> impulses;
     const auto& bodies = scene.bodies->body;
     for (const auto& body : bodies) {
         if (!body || body->clumpId == Body::ID_NONE) continue;
-        const Wrench on = wrench_on(scene, body->id);
-        Wrench& sum = wrenches[body->clumpId];
+        const Impulse on = impulse_on(scene, dt, owed, body->id);
+        Impulse& sum = impulses[body->clumpId];
         const State& clump = moving_state(*body, bodies);
-        sum.force += on.force;
-        sum.torque += on.torque + (body->state->se3.position - clump.se3.position).cross(on.force);
+        sum.linear += on.linear;
+        sum.angular += on.angular + (body->state->se3.position - clump.se3.position).cross(on.linear);
     }
-    return wrenches;
+    return impulses;
 }
 
 yade::Vector3r gravity_of(const yade::Scene& scene)
@@ -98,18 +106,18 @@ yade::Vector3r gravity_of(const yade::Scene& scene)
     return yade::Vector3r::Zero();
 }
 
-/// Changes of velocity and spin in a step.
+/// Changes of velocity and spin.
 struct Change {
     yade::Vector3r velocity, spin;
 };
 
-Change change_in(double dt, const State& state, const Wrench& on, const yade::Vector3r& gravity)
+Change change_by(const Impulse& on, const State& state, const yade::Vector3r& fall)
 {
     Change change{yade::Vector3r::Zero(), yade::Vector3r::Zero()};
-    if (state.mass > 0) change.velocity = dt * (on.force / state.mass + gravity);
+    if (state.mass > 0) change.velocity = on.linear / state.mass + fall;
     if (state.inertia.minCoeff() > 0) {
         const yade::Quaternionr& q = state.se3.orientation;
-        change.spin = dt * (q * (q.conjugate() * on.torque).cwiseQuotient(state.inertia));
+        change.spin = q * (q.conjugate() * on.angular).cwiseQuotient(state.inertia);
     }
     for (int d = 0; d < 3; ++d) {
         if (state.blockedDOFs & (1u << d)) change.velocity[d] = 0;
@@ -120,20 +128,19 @@ Change change_in(double dt, const State& state, const Wrench& on, const yade::Ve
 
 }  // namespace
 
-void foretell(yade::Scene& scene, double dt, std::vector<lbm::Solid>& solids)
+void foretell(yade::Scene& scene, double dt, std::vector<lbm::Solid>& solids, const HeldLoads& owed)
 {
     scene.forces.sync();
     const auto& bodies = scene.bodies->body;
-    const yade::Vector3r gravity = gravity_of(scene);
+    const yade::Vector3r fall = dt * gravity_of(scene);
     const bool clumps = std::any_of(solids.begin(), solids.end(), [](const lbm::Solid& s) { return s.body >= 0; });
-    const auto on_clumps = clumps ? wrenches_on_clumps(scene) : std::unordered_map<int, Wrench>{};
+    const auto on_clumps = clumps ? impulses_on_clumps(scene, dt, owed) : std::unordered_map<int, Impulse>{};
     for (lbm::Solid& solid : solids) {
         const Body& body = *bodies[static_cast<std::size_t>(solid.id)];
         const bool member = body.isClumpMember();
-        const Wrench on = member ? on_clumps.at(body.clumpId) : wrench_on(scene, body.id);
-        const Change change = change_in(dt, moving_state(body, bodies), on, gravity);
-        const yade::Vector3r lever(solid.lever[0], solid.lever[1], solid.lever[2]);
-        const yade::Vector3r at_centre = change.velocity + change.spin.cross(lever);
+        const Impulse on = member ? on_clumps.at(body.clumpId) : impulse_on(scene, dt, owed, body.id);
+        const Change change = change_by(on, moving_state(body, bodies), fall);
+        const yade::Vector3r at_centre = change.velocity + change.spin.cross(vector3r(solid.lever));
         for (int d = 0; d < 3; ++d) {
             solid.velocity[d] += at_centre[d];
             solid.angular_velocity[d] += change.spin[d];

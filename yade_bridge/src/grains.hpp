@@ -1,12 +1,10 @@
 #pragma once
 
+#include "held_loads.hpp"
+
 #include "lbm/solid.hpp"
 
 #include <vector>
-
-namespace yade {
-class Scene;
-}
 
 namespace yadelbm {
 
@@ -27,11 +25,11 @@ struct Selection {
 void read_solids(const yade::Scene& scene, const Selection& selection, double lead, std::vector<lbm::Solid>& solids);
 
 /**
- * Brings the velocities of the solids to the end of the grain step that is about to be made, under the forces that stand in the scene now and the integrator's
- * gravity, as if nothing else happened to them. Directions that are blocked keep theirs; members of a clump move with it.
+ * Brings the velocities of the solids to a later time, under the forces that stand in the scene now and the integrator's gravity, as if nothing else happened to them but
+ * impulses that they are owed. Directions that are blocked keep their velocities; members of a clump move with it.
  * @param solids  as read_solids gave them
- * @param dt      of the grain step [s]
+ * @param dt      how much later: at most the grain step that is about to be made [s]
  */
-void foretell(yade::Scene& scene, double dt, std::vector<lbm::Solid>& solids);
+void foretell(yade::Scene& scene, double dt, std::vector<lbm::Solid>& solids, const HeldLoads& owed = {});
 
 }  // namespace yadelbm

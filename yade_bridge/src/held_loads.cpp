@@ -2,6 +2,8 @@
 
 #include <core/Scene.hpp>
 
+#include <algorithm>
+
 namespace yadelbm {
 
 /// What was delivered so far is taken off; once per change of the forces, not once per step.
@@ -54,6 +56,13 @@ void HeldLoads::write(yade::Scene& scene) const
         scene.forces.addForce(id, yade::Vector3r(held.force[0], held.force[1], held.force[2]));
         scene.forces.addTorque(id, yade::Vector3r(held.torque[0], held.torque[1], held.torque[2]));
     }
+}
+
+HeldLoads::Impulse HeldLoads::owed(std::int64_t id) const
+{
+    const auto held =
+        std::lower_bound(held_.begin(), held_.end(), id, [](const Held& h, std::int64_t i) { return h.id < i; });
+    return held != held_.end() && held->id == id ? Impulse{held->impulse, held->angular_impulse} : Impulse{};
 }
 
 lbm::Vec3 HeldLoads::undelivered(double elapsed) const

@@ -37,6 +37,12 @@ public:
     /// The grains were under the current forces for this long [s].
     void delivered(double elapsed) { delivered_ += elapsed; }
 
+    struct Impulse {
+        lbm::Vec3 linear{}, angular{};  // [N s], [N m s]
+    };
+    /// What a body has not received yet, counted when a fluid step was last added.
+    Impulse owed(std::int64_t id) const;
+
     /// Sum of the linear impulses left after this much more time under the current forces [N s].
     lbm::Vec3 undelivered(double elapsed) const;
 

@@ -120,7 +120,7 @@ void LbmEngine::advance()
     bool spread = follow_grains();
     if (replan_ && schedule_.fluid_step_due()) follow_time_step();
     check_grain_step();
-    for (; schedule_.fluid_step_due(); spread = true) step_fluid();
+    for (bool again = false; schedule_.fluid_step_due(); again = spread = true) step_fluid(again);
 
     const Stopwatch out;
     if (spread) {
@@ -257,12 +257,23 @@ double LbmEngine::length_of_last_grain_step(const yade::Scene& now) const
     return elapsed > 0 ? elapsed : planned;
 }
 
-void LbmEngine::step_fluid()
+/**
+ * Within a grain step that holds several fluid steps grains take up their loads from one of these to the next, as they will by the grain step's end: held at the velocity of
+ * its beginning, light grains in a viscous liquid would get far more than it takes to stop them.
+ * @param again  whether a fluid step was made in this grain step before
+ */
+void LbmEngine::step_fluid(bool again)
 {
     check_place(*scene, settings_);
     const Stopwatch in;
     std::swap(solids_, solids_before_);
-    read_solids(*scene, {settings_.mask, settings_.ids}, schedule_.lead(), solids_);
+    const double lead = schedule_.lead();
+    read_solids(*scene, {settings_.mask, settings_.ids}, again ? 0 : lead, solids_);
+    if (again) {
+        foretell(*scene, lead, solids_, held_);
+        for (lbm::Solid& solid : solids_)
+            for (int d = 0; d < 3; ++d) solid.position[d] += lead * solid.velocity[d];
+    }
     look_for_moves_without_velocity();
     check_cell(*scene, settings_, solids_);
     if (selection_changed_) check_selection(settings_, solids_);
