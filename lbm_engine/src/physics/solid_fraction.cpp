@@ -1,5 +1,7 @@
 #include "physics/solid_fraction.hpp"
 
+#include "physics/box_fraction.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -227,17 +229,9 @@ void SolidFraction::rotated_box(const SolidGeometry& solid, const Vec3& half)
     bounds(solid.centre, half);
     for (int k = 0; k < count_[2]; ++k)
         for (int j = 0; j < count_[1]; ++j)
-            for_lines(first_[1] + j, first_[2] + k, [&](double y, double z) {
-                const Interval line = inside(solid, y, z);
-                if (line.length() == 0) return;
-                const int begin =
-                    static_cast<int>(std::clamp(std::floor(line.begin) - first_[0], 0.0, double(count_[0])));
-                const int end = static_cast<int>(std::clamp(std::ceil(line.end) - first_[0], 0.0, double(count_[0])));
-                for (int i = begin; i < end; ++i) {
-                    const double x = first_[0] + i;
-                    own_row(j, k)[i] += overlap(line, {x, x + 1}).length() / (kLines * kLines);
-                }
-            });
+            for (int i = 0; i < count_[0]; ++i)
+                own_row(j, k)[i] =
+                    box_fraction(solid, {double(first_[0] + i), double(first_[1] + j), double(first_[2] + k)});
 }
 
 void SolidFraction::pipe(const SolidGeometry& solid)

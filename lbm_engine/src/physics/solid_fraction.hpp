@@ -23,8 +23,8 @@ struct SolidGeometry {
 /**
  * Solid fractions of the cells that a solid touches, inside a lattice.
  *
- * Spheres, boxes along the axes and pipes are exact to round-off. Of a solid that overlaps others of its rigid body, and of a rotated box, cells that
- * surfaces cut are integrated along 8 x 8 lines (error of such a cell about 1e-3, with either sign).
+ * Exact to round-off. Of a solid that overlaps others of its rigid body, cells in which they meet keep the part that 8 x 8 lines say is left (error of such a cell about
+ * 1e-3, with either sign).
  */
 class SolidFraction {
 public:
