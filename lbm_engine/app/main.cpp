@@ -88,9 +88,11 @@ int run(const std::string& path)
     return 0;
 }
 
+bool asks_for_help(const std::string& argument) { return argument == "--help" || argument == "-h"; }
+
 int bench(const std::vector<std::string>& arguments)
 {
-    if (arguments.size() == 1 && arguments[0] == "--help") {
+    if (arguments.size() == 1 && asks_for_help(arguments[0])) {
         std::fputs(lbm::kBenchUsage, stdout);
         return 0;
     }
@@ -104,7 +106,8 @@ int bench(const std::vector<std::string>& arguments)
 int main(int argc, char** argv)
 {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
-    if (arguments.size() == 1 && (arguments[0] == "--help" || arguments[0] == "-h")) {
+    const bool run_help = arguments.size() == 2 && arguments[0] == "run" && asks_for_help(arguments[1]);
+    if (run_help || (arguments.size() == 1 && asks_for_help(arguments[0]))) {
         std::fputs(kUsage, stdout);
         return 0;
     }

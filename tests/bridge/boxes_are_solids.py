@@ -35,7 +35,7 @@ def a_turned_box_displaces_its_volume():
     O.dt = fluid_step(1)
     O.run(1, True)
     buoyancy = FLUID["density"] * 8 * extents[0] * extents[1] * extents[2] * g
-    check_close(fluid.fluidForce(0)[2], buoyancy, 1e-3 * buoyancy, "buoyancy")  # cut cells along 8 x 8 lines
+    check_close(fluid.fluidForce(0)[2], buoyancy, 1e-10 * buoyancy, "buoyancy")
 
 
 def thin_walls_may_stand_outside_but_not_inside():

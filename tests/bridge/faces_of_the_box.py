@@ -45,7 +45,7 @@ def pressure_is_raised_during_a_run():
     fluid = one_sphere(boundary=boundary, tau=1.0, inertia=False, boundaryPressure=[2, 2, 0, 0, 0, 0])
     O.dt = fluid_step(1.0)
     O.run(20, True)
-    same(fluid.getPorePressure((6e-3, 6e-3, 6e-3)), 2.0, 1e-9)
+    same(fluid.getPorePressure(pos=(6e-3, 6e-3, 6e-3)), 2.0, 1e-9)
     check(math.isnan(fluid.permeability()), "a permeability without a drive")
     fluid.boundaryPressure = [2.001, 2, 0, 0, 0, 0]
     O.run(2000, True)
@@ -67,7 +67,7 @@ def a_wall_is_set_in_motion_during_a_run():
     check(abs(fluid.velocity).max() == 0, "fluid moves by itself")
     fluid.boundaryVelocity = STILL[:5] + [(1e-3, 0, 0)]
     O.run(500, True)
-    check(fluid.fluidForce(0)[0] > 0 and fluid.getBoundaryForce(5)[0] < 0, "the wall does not drag")
+    check(fluid.fluidForce(id=0)[0] > 0 and fluid.getBoundaryForce(i=5)[0] < 0, "the wall does not drag")
 
 
 prove(

@@ -371,6 +371,9 @@ class Messages(unittest.TestCase):
         done = subprocess.run([PROGRAM, "fly"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
         self.assertIn("usage: lbm run CASE.json", done.stderr)
+        for words in (["--help"], ["-h"], ["run", "--help"], ["bench", "-h"]):
+            done = subprocess.run([PROGRAM, *words], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout[:6]), (0, "usage:"), words)
 
 
 if __name__ == "__main__":

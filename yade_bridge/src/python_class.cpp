@@ -142,19 +142,22 @@ void define_queries(PythonClass& python_class)
              "may take; ValueError with what would fit if that is too little.")
         .def(
             "fluidForce", +[](const LbmEngine& e, int id) { return to_python(e.load_on(id).force); },
+            (bp::arg("self"), bp::arg("id")),
             "Force on a body in the last fluid step, buoyancy included [N]; ValueError if it was not in the fluid.")
         .def(
             "fluidTorque", +[](const LbmEngine& e, int id) { return to_python(e.load_on(id).torque); },
-            "Torque on a body about its centre in the last fluid step [N m].")
+            (bp::arg("self"), bp::arg("id")), "Torque on a body about its centre in the last fluid step [N m].")
         .def(
             "stresslet", +[](const LbmEngine& e, int id) { return to_python(e.load_on(id).stresslet); },
+            (bp::arg("self"), bp::arg("id")),
             "Symmetric, traceless first moment of the traction on a body in the last fluid step [N m].")
         .def(
             "getVelocity",
             +[](const LbmEngine& e, const bp::object& at) { return to_python(e.velocity_at(position(at))); },
-            "Velocity at a position, trilinear [m/s]; ValueError outside the box.")
+            (bp::arg("self"), bp::arg("pos")), "Velocity at a position, trilinear [m/s]; ValueError outside the box.")
         .def(
             "getPorePressure", +[](const LbmEngine& e, const bp::object& at) { return e.pressure_at(position(at)); },
+            (bp::arg("self"), bp::arg("pos")),
             "Pressure at a position in excess of hydrostatic and drive, trilinear [Pa]; ValueError outside the box.")
         .def(
             "averageVelocity", +[](const LbmEngine& e) { return to_python(e.average_velocity()); },
@@ -164,11 +167,12 @@ void define_queries(PythonClass& python_class)
              "length "
              "between pressure faces that face each other; NaN without a drive.")
         .def(
-            "getBoundaryFlux", &LbmEngine::boundary_flux,
+            "getBoundaryFlux", &LbmEngine::boundary_flux, (bp::arg("self"), bp::arg("i")),
             "Volume of fluid per time that left the box through face i (0 to 5: xmin, xmax, ymin, ymax, zmin, zmax) in "
             "the last fluid step, positive outwards; through a periodic face too [m3/s].")
         .def(
             "getBoundaryForce", +[](const LbmEngine& e, int face) { return to_python(e.boundary_force(face)); },
+            (bp::arg("self"), bp::arg("i")),
             "Force of the fluid on face i in the last fluid step [N], from the momentum exchanged over its links: "
             "viscous "
             "stress, pressure in excess of hydrostatic and drive, and the momentum of what flows through. Zero for a "
@@ -186,7 +190,7 @@ void define_queries(PythonClass& python_class)
             "'contacts' (utils.getStress over the volume of the box), and their 'total'. In a steady flow the total is "
             "the stress on the faces.")
         .def("kineticEnergy", &LbmEngine::kinetic_energy, "Kinetic energy of the fluid outside the solids [J].")
-        .def("saveVtk", &save_vtk,
+        .def("saveVtk", &save_vtk, (bp::arg("self"), bp::arg("path")),
              "Writes velocity, pressure and solid fraction as VTK image data (.vti) that ParaView opens.")
         .add_property("velocity", &velocity, "Velocities, a NumPy array of shape (nz, ny, nx, 3) [m/s]; a copy.")
         .add_property(
