@@ -136,7 +136,7 @@ The strength k of spheres was chosen by the simple cubic array with c = 0.125, s
 construction; a slope through them means little. In narrow pores cut cells count more (docs/physics.md, "Narrow pores"), with one constant for each Lambda that was fitted on arrays of c = 0.3 to
 0.68 at 8 to 24 cells per diameter and a random pack. Cubes of more than 48 cells were run with two offsets, smaller ones with eight. The drive acts as a difference of pressure would.
 
-How an array lies to the lattice counts up to 0.5 % (runs of their own): turned by 45 degrees about an axis the face-centred one of c = 0.5 (15 cells per diameter) has -0.1 and -0.2 % across and along it, upright -0.6 %.
+How an array lies to the lattice counts up to 0.5 % (runs of their own, with earlier functions of eps): turned by 45 degrees about an axis the face-centred one of c = 0.5 (15 cells per diameter) has -0.1 and -0.2 % across and along it, upright -0.6 %.
 """
 
 

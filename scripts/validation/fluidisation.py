@@ -122,7 +122,7 @@ def text(results):
                        for r0 in histories(results)[:1] for r in results for s in fluidised(r) if s["speed"] == max(t["speed"] for t in r["stages"]))
     return "\n".join(parts) + f"""
 The momentum is kept: pressure drop and floor together bear the weight. The drop alone falls short of it by what the floor still carries, less the faster the flow: {floors}. A layer of grains is a sixth of so low a bed. The bed is looser than what Wen and Yu's
-correlation stands for (porosities near 0.4): its top and its floor are in the porosity, and raising the flow loosens it. One bed, one arrangement: with earlier versions of the scheme it rearranged otherwise, and the onsets were +16 to +17 % raised and -9 to -17 % lowered against Ergun, +47 to +66 % against Wen and Yu. The runs shown here had films between grains 1 to 3 % stronger below half a cell than they are now.
+correlation stands for (porosities near 0.4): its top and its floor are in the porosity, and raising the flow loosens it. One bed, one arrangement: with earlier versions of the scheme it rearranged otherwise, and the onsets were +6 to +17 % raised and -9 to -27 % lowered against Ergun, +27 to +66 % against Wen and Yu.
 
 The correlations agree with the reference table to {check_correlations():.0e}. The weight of the bed compresses the fluid below it by {100 * min(r['compression'] for r in results):.1f} % ({100 * max(r['compression'] for r in results):.1f} % with the most grains).
 """

@@ -78,7 +78,7 @@ def text(results):
     return f"""
 The measured peak of E1 (0.0360 m/s) lies above what Stokes drag between the six walls allows (0.0355 m/s, without inertia and after an endless fall); no correct computation reaches it, so it has no
 target. The terminal velocity in the box is an upper bound of the peak: the fall is finite. What is left at Re = 30 is resolution: a boundary layer of under two cells that moves through the lattice (docs/physics.md, "Finite
-Reynolds number"). With the functions of eps as they were before (-2.66 % with the default) the peak of E4 at 9.75 cells was off by -2.63 % with D3Q27, -2.63 % at a Mach number of 0.05 instead of 0.08, and -2.94 / -3.27 % with Lambda = 3/16, 1/4; Lambda = 1/12, which is advised for grains that move at Re above 10, is in the table.{limits(results, "E4")}
+Reynolds number"). With earlier functions of eps (-2.66 % with the default) the peak of E4 at 9.75 cells was off by -2.63 % with D3Q27, -2.63 % at a Mach number of 0.05 instead of 0.08, and -2.94 / -3.27 % with Lambda = 3/16, 1/4; Lambda = 1/12, which is advised for grains that move at Re above 10, is in the table.{limits(results, "E4")}
 """
 
 
