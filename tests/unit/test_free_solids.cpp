@@ -225,6 +225,7 @@ class FreeSolids : public CppUnit::TestFixture {
                     Vec3 given{};
                     double passed = norm(before);
                     for (int t = 0; t < 300; ++t) {
+                        scene.fluid.place_solids(scene.solids);
                         for (int face = 0; face < 6; ++face) {
                             const Vec3 torque = scene.fluid.boundary_torque(static_cast<Face>(face));
                             given += torque;

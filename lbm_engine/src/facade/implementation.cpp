@@ -189,7 +189,9 @@ void Fluid::Implementation::step()
         },
         populations);
     watch_time.lap();
+    if (!placed) forget_carried();
     settle_loads();
+    placed = false;
     times.loads += watch_time.lap();
 }
 
@@ -290,6 +292,8 @@ void Fluid::Implementation::settle_loads()
         double spin_share = load_share(solid.inertia / units.inertia, coupling.spin);
         // Turning moves the parts of a body: one share for all keeps its velocities those of a rigid body.
         if (part) share = spin_share = std::min(share, spin_share);
+        ledgers[s].momentum += carried_in[s].momentum;
+        ledgers[s].angular_momentum += carried_in[s].moment;
         const auto load =
             ledgers[s].settle(sums.force, sums.torque(), sums.momentum, sums.angular_momentum, share, spin_share);
         loads[s] = load_in_si(s, load, sums);

@@ -63,6 +63,16 @@ struct Fluid::Implementation {
         Vec3 velocity, angular_velocity;
         double share, spin_share;  ///< of the load that was passed on (LoadLedger)
     };
+    /// Momentum in lattice units, with its moment.
+    struct Carried {
+        Vec3 momentum{}, moment{};
+    };
+    std::vector<double>
+        volumes_before;  // inside the box, of the solids where they were placed before; in the same order
+    std::vector<Carried>
+        carried_in;  // with what fills them, through open faces, on the way to where they are placed; moments about their centres
+    std::array<Carried, 6> carried_by_face;             // the same by face; moments about the origin of the lattice
+    bool placed = false;                                // since the last step
     std::vector<Motion> last_motions;                   // of the solids in the last step; in the same order
     std::unordered_map<std::int64_t, int> index_of_id;  // into all of them
     std::vector<SolidLoad> loads;
@@ -98,6 +108,9 @@ struct Fluid::Implementation {
         return {-0.5 * F[0], -0.5 * F[1], -0.5 * F[2]};
     }
     void place(const std::vector<Solid>& now);
+    void carry_through_faces();
+    void forget_carried();
+    void carry_through_faces(std::size_t s);
     /// From one place of a solid to the next, to the nearest image [m].
     Vec3 way(const Solid& before, const Solid& now) const;
     /// Whether a solid goes on being what it was; one that jumped by more than its radius is another one.

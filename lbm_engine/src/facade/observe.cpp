@@ -47,14 +47,17 @@ double Fluid::boundary_flux(Face face) const
 Vec3 Fluid::boundary_force(Face face) const
 {
     const auto& fluid = *implementation_;
-    return fluid.units.force * fluid.passages()[face].momentum + fluid.film_forces_on_walls[face];
+    return fluid.units.force * (fluid.passages()[face].momentum + fluid.carried_by_face[face].momentum) +
+           fluid.film_forces_on_walls[face];
 }
 
 Vec3 Fluid::boundary_torque(Face face) const
 {
     const auto& fluid = *implementation_;
     const Faces::Passage passage = fluid.passages()[face];
-    return fluid.units.torque * passage.moment + cross(config().lower, fluid.units.force * passage.momentum);
+    const auto& carried = fluid.carried_by_face[face];
+    return fluid.units.torque * (passage.moment + carried.moment) +
+           cross(config().lower, fluid.units.force * (passage.momentum + carried.momentum));
 }
 
 double Fluid::mean_density_deviation() const

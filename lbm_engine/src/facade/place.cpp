@@ -5,6 +5,8 @@
 #include "facade/validate.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace lbm {
 
@@ -72,6 +74,65 @@ bool Fluid::Implementation::is_same(const Solid& now, const Solid& before) const
            now.half_extents == before.half_extents && now.axis == before.axis && distance2 <= jump * jump;
 }
 
+/**
+ * A solid that comes in through an open face brings along the momentum of what fills its cells, and takes it away where it leaves: that is neither a load on it nor a force on the
+ * face. Its part that is outside is taken to move with it.
+ */
+void Fluid::Implementation::carry_through_faces()
+{
+    if (!placed) forget_carried();
+    placed = true;
+    const bool any_open = std::any_of(config.faces.begin(), config.faces.end(), [](const FaceCondition& face) {
+        return face.type == FaceType::velocity || face.type == FaceType::pressure;
+    });
+    if (!any_open) return;
+    for (std::size_t s = 0; s < solids.size(); ++s)
+        if (volumes_before[s] >= 0 && volumes_before[s] != map.volume(s)) carry_through_faces(s);
+}
+
+void Fluid::Implementation::forget_carried()
+{
+    carried_in.assign(solids.size(), {});
+    carried_by_face = {};
+}
+
+void Fluid::Implementation::carry_through_faces(std::size_t s)
+{
+    const LatticeSolid& solid = lattice_solids[s];
+    const SolidGeometry& geometry = solid.geometry;
+    // What comes in through each face in a step, about, and how it shares the volume that did.
+    std::array<double, 6> rates{};
+    std::array<Vec3, 6> sections{};  // their middles, from the centre
+    double sum = 0, largest = 0;
+    for (int face = 0; face < 6; ++face) {
+        if (config.faces[face].type == FaceType::periodic) continue;
+        const int d = face / 2;
+        const double plane = face % 2 ? config.cells[d] : 0, at = plane - geometry.centre[d];
+        const bool sphere = geometry.shape == Shape::sphere;
+        const double reach = sphere ? geometry.radius : half_reach(geometry.axes, geometry.half_extents, d);
+        if (std::abs(at) >= reach) continue;
+        sections[face][d] = at;
+        const double area = sphere ? std::numbers::pi * (reach * reach - at * at) : 1;
+        const Vec3 u = solid.velocity + cross(solid.angular_velocity, sections[face]);
+        rates[face] = (face % 2 ? -1 : 1) * u[d] * area;
+        sum += rates[face];
+        largest = std::max(largest, std::abs(rates[face]));
+    }
+    if (largest == 0) return;
+    const double volume = map.volume(s) - volumes_before[s];
+    const double scale = std::abs(sum) > 0.1 * largest ? volume / sum : 1;
+    for (int face = 0; face < 6; ++face) {
+        const FaceType type = config.faces[face].type;
+        if (rates[face] == 0 || (type != FaceType::velocity && type != FaceType::pressure)) continue;
+        const Vec3 u = solid.velocity + cross(solid.angular_velocity, sections[face]);
+        const Vec3 momentum = (scale * rates[face]) * u;
+        carried_in[s].momentum += momentum;
+        carried_in[s].moment += cross(sections[face], momentum);
+        carried_by_face[face].momentum += momentum;
+        carried_by_face[face].moment += cross(geometry.centre + sections[face], momentum);
+    }
+}
+
 void Fluid::Implementation::place(const std::vector<Solid>& now)
 {
     const ThreadCount threads(config);
@@ -98,6 +159,14 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
 #pragma omp parallel for schedule(static) if (count > 256)
     for (std::ptrdiff_t s = 0; s < count; ++s)
         lattice_solids[s] = in_lattice_units(previous[s] < 0 ? now[s] : in_mid_step(now[s], last_motions[previous[s]]));
+    volumes_before.resize(now.size());
+    if (placed && !same_ids) {
+        std::vector<Carried> kept(now.size());
+        for (std::ptrdiff_t s = 0; s < count; ++s)
+            if (previous[s] >= 0) kept[s] = carried_in[previous[s]];
+        carried_in = std::move(kept);
+    }
+    for (std::ptrdiff_t s = 0; s < count; ++s) volumes_before[s] = previous[s] < 0 ? -1 : map.volume(previous[s]);
     map.update(lattice_solids, previous);
     for (std::ptrdiff_t s = 0; s < count; ++s)
         if (previous[s] >= 0) ledgers[previous[s]].move((1 / units.length) * way(solids[previous[s]], now[s]));
@@ -127,6 +196,7 @@ void Fluid::Implementation::place(const std::vector<Solid>& now)
         loads.assign(now.size(), SolidLoad{});
     }
     solids = now;
+    carry_through_faces();
     times.map += watch.lap();
 }
 
