@@ -77,7 +77,7 @@ struct PoreShape {
     std::array<double, 3> towards;
     double curvature, distance, over_widest, near, far;
     double facing, curvature2;  ///< C / R1 and 1 / R2
-    double inner2;  ///< no cell whose centre is nearer than this, squared, is cut
+    double inner2;              ///< no cell whose centre is nearer than this, squared, is cut
 };
 
 /// What takes time when spheres are mapped (SphereFraction, CutCells).
