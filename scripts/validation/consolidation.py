@@ -224,7 +224,7 @@ consolidation is compared with what was measured):
 {table(("place in the cell", "permeability"), lines)}
 
 With films each contact has a dashpot beside its spring, the film at its roughness, c = 6 pi mu (R/2)^2 / h (and its logarithm): the skeleton gives way with a delay of c / k, {max((dashpot(0.1) / unit_of_time(16, 0.1, r["permeability"]) for r in of(results, seepage)), default=0):.3f} H^2 / c_v here, and the solution
-that the run with films is compared with has decays of m^2 / (1 + c_v c / (k H^2) m^2); against Terzaghi's own it settles up to 4 % late. (Its films were 1 to 3 % stronger below half a cell than they are now.) What is left of the pressures' error in the first samples is the sound of the loading.
+that the run with films is compared with has decays of m^2 / (1 + c_v c / (k H^2) m^2); against Terzaghi's own it settles up to 4 % late. What is left of the pressures' error in the first samples is the sound of the loading.
 
 The solution is that for a compressible fluid: p_0 / q = 1 / (1 + S E), c_v = (k / mu) / (1 / E + S), with S = 1 / K_f, storage in the whole volume (case `skempton`), not n / K_f. The load rises over two periods of the
 column's sound; the time is counted from the middle of this. The series agrees with the tables of the reference folder to {check_series():.0e}.
