@@ -27,7 +27,7 @@ bool NarrowPores::is_nearest(const Vec3& image, const Vec3& to) const
 void NarrowPores::find(std::size_t solid, const std::vector<LatticeSolid>& solids,
                        std::vector<Opposite>& opposite) const
 {
-    constexpr std::size_t kMostly = 64;  // spheres of one size have fewer: no memory is asked for while they move
+    constexpr std::size_t kMostly = 48;  // spheres of one size have fewer: no memory is asked for while they move
     opposite.clear();
     opposite.reserve(kMostly);
     const LatticeSolid& one = solids[solid];
