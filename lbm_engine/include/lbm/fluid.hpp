@@ -122,8 +122,8 @@ public:
     /**
      * Force of the fluid on a face, from the momentum that crosses its links between the last collision and the next one; zero for a periodic face. Of
      * the excess pressure, like the pressure field: neither hydrostatic pressure nor the drive's is in it. For a velocity or pressure face it
-     * contains the momentum that the fluid carries through it. What films add to the force on a wall is that of the last `film_loads`.
-     * In each step, with faces F without films, drive a and loads on the solids: total_momentum changes by density * acceleration * V_box - sum F (before the step) -
+     * contains the momentum that the fluid carries through it, without that of what fills solids which cross it, between their last two places. What films add to the force on a wall is that of the last `film_loads`.
+     * In each step, with faces F without films, drive a and loads on the solids: total_momentum changes by density * acceleration * V_box - sum F (before the step, after place_solids) -
      * loads (of the step, without buoyancy).
      */
     Vec3 boundary_force(Face face) const;  ///< [N]
