@@ -63,11 +63,14 @@ public:
     void place_solids(const std::vector<Solid>& solids);
 
     /**
-     * One fluid step of length dt().
+     * Fluid steps of length dt(), the solids staying where they are. Of several steps around solids that are all fixed (at rest, of infinite mass and inertia) loads are found for
+     * the last one only: dense beds take 4/5 of the time.
+     * @param count  of steps, >= 0
+     * @throws ConfigError  for a negative number of steps
      * @throws RunError  with where and when: if a surface in the box moves beyond the Mach limit (the flow is untouched then), or if the flow
      *         diverged, went beyond that limit or, with inertia, has a density that is off by more than kMaxDensityDeviation
      */
-    void step();
+    void step(int count = 1);
 
     /**
      * Goes on with another relaxation time, and so with another dt(), in the same flow: velocities, pressures, stresses and loads

@@ -14,9 +14,9 @@ void Fluid::place_solids(const std::vector<Solid>& solids)
 {
     implementation_->change("the map of solids", [&] { implementation_->place(solids); });
 }
-void Fluid::step()
+void Fluid::step(int count)
 {
-    implementation_->change("a step", [&] { implementation_->step(); });
+    implementation_->change("a step", [&] { implementation_->step(count); });
 }
 void Fluid::change_tau(double tau)
 {

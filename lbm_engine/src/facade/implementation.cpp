@@ -170,7 +170,23 @@ void Fluid::Implementation::start_at(double drho, const Vec3& u)
         populations);
 }
 
-void Fluid::Implementation::step()
+/// Whether the loads of a step say all that there is to know about it: nothing that the fluid took from a solid is passed on later.
+bool Fluid::Implementation::loads_can_wait() const
+{
+    return map.all_fixed() &&
+           std::all_of(ledgers.begin(), ledgers.end(), [](const LoadLedger& l) { return l.is_settled(); });
+}
+
+void Fluid::Implementation::step(int count)
+{
+    if (count < 0) throw ConfigError(message("step: count = ", count, ": it must not be negative"));
+    constexpr int kHeard = 2;  // a load is told from the momenta inside the solid after two steps
+    const bool wait = count > kHeard && loads_can_wait();
+    for (int i = 0; i < count; ++i) make_step(!wait || i >= count - kHeard);
+}
+
+/// @param heard  whether the solids' loads are found
+void Fluid::Implementation::make_step(bool heard)
 {
     const ThreadCount threads(config);
     watch_surfaces();
@@ -179,7 +195,7 @@ void Fluid::Implementation::step()
         [&](auto& f) {
             auto* const slots = f.data();
             const auto x_faces = [&, to_odd = !f.odd](int y, int z) { faces.stream_row(slots, y, z, to_odd); };
-            const FlowWatch flow = sweep(f, collision, config.inertia, map, std::cref(x_faces));
+            const FlowWatch flow = sweep(f, collision, config.inertia, map, heard, std::cref(x_faces));
             times.collide_stream += watch_time.lap();
             faces.stream(f.data(), f.odd);
             times.exchange += watch_time.lap();
@@ -190,7 +206,7 @@ void Fluid::Implementation::step()
         populations);
     watch_time.lap();
     if (!placed) forget_carried();
-    settle_loads();
+    if (heard) settle_loads();
     placed = false;
     times.loads += watch_time.lap();
 }

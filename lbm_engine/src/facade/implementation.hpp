@@ -115,11 +115,13 @@ struct Fluid::Implementation {
     Vec3 way(const Solid& before, const Solid& now) const;
     /// Whether a solid goes on being what it was; one that jumped by more than its radius is another one.
     bool is_same(const Solid& now, const Solid& before) const;
-    void step();
+    void step(int count);
+    bool loads_can_wait() const;
     void change_tau(double tau);
     void change_faces(const std::array<FaceCondition, 6>& to);
     void rebuild_faces(double dynamic_pressure_scale);
     double time() const { return time_before_dt + static_cast<double>(steps - steps_before_dt) * dt; }
+    void make_step(bool heard);
     void settle_loads();
     const std::vector<SolidLoad>& film_loads(const std::vector<Solid>& now, double step);
     /// B and B_w of a solid, or of the rigid body that it is part of.

@@ -82,6 +82,7 @@ struct RowSaturation {
     std::vector<std::uint8_t> covered;  ///< per block: a Cover
     RowAhead ahead;
     bool fixed = false;  ///< all solids are at rest, and nobody asks for the weight
+    bool heard = true;   ///< solids listen; if not, the cells need not answer
 };
 
 /// The saturation of cells, and what a solid takes of their answers.

@@ -64,12 +64,14 @@ public:
 
     bool covers(std::size_t row) const noexcept { return row_begin_[row] != row_end_[row]; }
 
-    /// Asks memory for the fractions of a row, which lie scattered, solid by solid.
-    void prefetch(std::size_t row) const noexcept;
+    /// Asks memory for the fractions of a row, which lie scattered, solid by solid, and for the sums if they are `heard`.
+    void prefetch(std::size_t row, bool heard) const noexcept;
     /// Writes what the solids say to the cells of a row, and marks the covered blocks.
     void saturate(std::size_t row, RowSaturation& cells) const;
-    /// Adds the cells' answers to the solids' sums, and clears the row for the next one.
-    void collect(std::size_t row, RowSaturation& cells);
+    /// Adds the cells' answers to the solids' sums.
+    void collect(std::size_t row, const RowSaturation& cells);
+    /// Whether all solids are at rest, and not free to move.
+    bool all_fixed() const noexcept { return all_fixed_; }
 
     void clear_sums();
     SolidSums sums(std::size_t solid) const;

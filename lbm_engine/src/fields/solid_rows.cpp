@@ -137,7 +137,7 @@ PiecesOfRow SolidMap::pieces(std::size_t row) const noexcept
             static_cast<int>(row % n_[1]),    static_cast<int>(row / n_[1]),  all_fixed_};
 }
 
-void SolidMap::prefetch(std::size_t row) const noexcept
+void SolidMap::prefetch(std::size_t row, bool heard) const noexcept
 {
     if (row == row_begin_.size()) return;
     const Piece* const next = pieces_.data() + row_end_[row];  // of the row after it, about as many
@@ -146,8 +146,10 @@ void SolidMap::prefetch(std::size_t row) const noexcept
     for (std::uint32_t p = row_begin_[row]; p < row_end_[row]; ++p) {
         const Piece& piece = pieces_[p];
         const RowSolid& solid = row_solids_[piece.solid];
-        const PieceSums& sums = sums_[solid.sums + piece.unit];
-        for (const double* const lanes : {sums.plain, sums.x, sums.y, sums.z}) __builtin_prefetch(lanes, 1);
+        if (heard) {
+            const PieceSums& sums = sums_[solid.sums + piece.unit];
+            for (const double* const lanes : {sums.plain, sums.x, sums.y, sums.z}) __builtin_prefetch(lanes, 1);
+        }
         const double* const fractions = solid.fractions + piece.fractions;
         const int stored = piece.n - piece.full;
         // Blocks are read whole: up to kBlock - 1 beyond the end.
@@ -162,11 +164,10 @@ void SolidMap::saturate(std::size_t row, RowSaturation& cells) const
     kernel(pieces(row), cells);
 }
 
-void SolidMap::collect(std::size_t row, RowSaturation& cells)
+void SolidMap::collect(std::size_t row, const RowSaturation& cells)
 {
     static const auto kernel = solid_row_kernels().collect;
     kernel(pieces(row), cells, sums_.data());
-    cells.clear();
 }
 
 void SolidMap::clear_sums()

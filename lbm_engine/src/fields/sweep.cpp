@@ -33,18 +33,19 @@ void look_ahead(const T* next, const Slot (&slot)[L::Q], RowAhead& ahead)
 
 template <class L, class T>
 FlowWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
-                const std::function<void(int, int)>& after_row)
+                bool heard, const std::function<void(int, int)>& after_row)
 {
     static const SweepRows<L, T> variants = sweep_rows<L, T>();
     const SweepRow<L, T> sweep_row = inertia ? variants.inertia : variants.stokes;
     const Layout<L>& layout = populations.layout;
     const int nx = layout.n[0];
     FlowWatch all;
-    solids.clear_sums();
+    if (heard) solids.clear_sums();
     FirstException out_of_memory;
 #pragma omp parallel
     if (out_of_memory.all_succeed([&] { scratch_row(nx); })) {
         RowSaturation& cells = scratch_row(nx);
+        cells.heard = heard;
         FlowWatch watch;
         for_rows(solids.units(), [&](std::size_t row, int y, int z) {
             Slot slot[L::Q];
@@ -52,9 +53,10 @@ FlowWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bo
             if (solids.covers(row)) {
                 look_ahead<L>(populations.data() + layout.row, slot, cells.ahead);
                 solids.saturate(row, cells);
-                solids.prefetch(row + 1);
+                solids.prefetch(row + 1, heard);
                 sweep_row(populations.data(), slot, nx, layout.row, p, &cells, watch);
-                solids.collect(row, cells);
+                if (heard) solids.collect(row, cells);
+                cells.clear();
             } else {
                 sweep_row(populations.data(), slot, nx, layout.row, p, nullptr, watch);
             }
@@ -77,6 +79,7 @@ static void sum_rows(SolidMap& solids, int nx, Read read)
 #pragma omp parallel
     if (out_of_memory.all_succeed([&] { scratch_row(nx); })) {
         RowSaturation& cells = scratch_row(nx);
+        cells.heard = true;
         for_rows(solids.units(), [&](std::size_t row, int y, int z) {
             if (!solids.covers(row)) return;
             solids.saturate(row, cells);
@@ -87,6 +90,7 @@ static void sum_rows(SolidMap& solids, int nx, Read read)
                 for (int d = 0; d < 3; ++d) cells.column(RowSaturation::kMomentum + d)[x] = momentum[d];
             });
             solids.collect(row, cells);
+            cells.clear();
         });
     }
     out_of_memory.rethrow();
@@ -116,7 +120,7 @@ void sum_inside(const Vec3& momentum, const CollisionParameters& p, SolidMap& so
 }
 
 #define LBM_SWEEP(L, T)                                                                                                \
-    template FlowWatch sweep(Populations<L, T>&, const CollisionParameters&, bool, SolidMap&,                          \
+    template FlowWatch sweep(Populations<L, T>&, const CollisionParameters&, bool, SolidMap&, bool,                    \
                              const std::function<void(int, int)>&);                                                    \
     template void sum_inside(const Populations<L, T>&, const CollisionParameters&, bool, SolidMap&, Vec3 CellState::*);
 LBM_SWEEP(D3Q19, double)

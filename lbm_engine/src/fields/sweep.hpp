@@ -11,11 +11,12 @@ namespace lbm {
 
 /**
  * Collides and streams all cells once and leaves the solids' sums in the map. Flips the parity; the faces come next.
+ * @param heard      false: the sums are not asked for, and mean nothing; all solids are fixed
  * @param after_row  called as after_row(y, z) when a row has made its step; rows in any order, by any thread
  */
 template <class L, class T>
 FlowWatch sweep(Populations<L, T>& populations, const CollisionParameters& p, bool inertia, SolidMap& solids,
-                const std::function<void(int, int)>& after_row);
+                bool heard, const std::function<void(int, int)>& after_row);
 
 /**
  * Fills the solids' sums of momentum inside them, and no others.

@@ -50,6 +50,12 @@ struct LoadLedger {
         return {load.force + old.force, load.torque + old.torque};
     }
 
+    bool is_settled() const
+    {
+        const Vec3 zero{};
+        return owed == zero && owed_moment == zero && arrears == zero && arrears_moment == zero;
+    }
+
     /// All that was taken and not passed on yet.
     Vec3 outstanding() const { return owed + arrears; }
     Vec3 outstanding_moment() const { return owed_moment + arrears_moment; }
