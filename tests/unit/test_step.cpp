@@ -22,6 +22,9 @@ using lbm::test::ReferenceFluid;
 /// After some tens of steps of order-one arithmetic.
 constexpr double kRoundOff = 1e-13;
 
+/// Where spheres leave narrow pores, whose law the engine evaluates in 32 bits and the twin in 64: it changes loads by some per cent.
+constexpr double kRoundOffOfPores = 5e-8;
+
 /// Rounding of the populations' deviations to 32 bits, against speeds of 0.05.
 constexpr double kSingleRoundOff = 2e-6;
 
@@ -139,7 +142,7 @@ class Step : public CppUnit::TestFixture {
     {
         compare(driven({11, 10, 12}, 0.6), {});
         compare(driven({11, 10, 12}, 0.6), one_sphere());
-        compare(driven({16, 9, 8}, 1.7), one_sphere());
+        compare(driven({16, 9, 8}, 1.7), one_sphere(), kRoundOffOfPores);
     }
 
     void agrees_between_walls_at_odd_sizes()
@@ -201,7 +204,7 @@ class Step : public CppUnit::TestFixture {
             compare(c, {});
         }
         for (FluidConfig c : boxes_of_all_faces({9, 8, 9}))
-            if (!is_refused(c) && c.faces[kXMax].type == FaceType::pressure) compare(c, one_sphere());
+            if (!is_refused(c) && c.faces[kXMax].type == FaceType::pressure) compare(c, one_sphere(), kRoundOffOfPores);
     }
 
     static bool is_refused(const FluidConfig& c)
@@ -228,11 +231,11 @@ class Step : public CppUnit::TestFixture {
         third.position = {2.5, 12.6, 12.2};  // overlaps both
         solids.push_back(second);
         solids.push_back(third);
-        compare(driven({11, 10, 12}, 0.6), solids);
+        compare(driven({11, 10, 12}, 0.6), solids, kRoundOffOfPores);
         // As wide as the box: its rims share cells with themselves.
         auto wide = one_sphere();
         wide[0].radius = 4.5;
-        compare(driven({9, 9, 9}, 0.9), wide);
+        compare(driven({9, 9, 9}, 0.9), wide, kRoundOffOfPores);
     }
 
     void agrees_where_spheres_leave_narrow_pores()
@@ -250,9 +253,9 @@ class Step : public CppUnit::TestFixture {
         for (const bool moving : {false, true}) {
             if (moving) solids[1].velocity = {0.02, -0.01, 0.03};
             FluidConfig c = driven({11, 10, 12}, 0.6);
-            compare(c, solids);
+            compare(c, solids, kRoundOffOfPores);
             c.faces[kZMin].type = c.faces[kZMax].type = FaceType::free_slip;
-            compare(c, solids);
+            compare(c, solids, kRoundOffOfPores);
         }
     }
 

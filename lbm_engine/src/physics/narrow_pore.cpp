@@ -36,15 +36,16 @@ struct Pore {
 
     PoreShape shape() const
     {
-        return {towards,
-                0.5 * (curvature1 + curvature2),
-                distance,
-                1 / widest,
-                near,
-                far,
-                facing * curvature1,
-                curvature2,
-                inner * inner};
+        const auto single = [](double x) { return static_cast<float>(x); };
+        return {{single(towards[0]), single(towards[1]), single(towards[2])},
+                single(0.5 * (curvature1 + curvature2)),
+                single(distance),
+                single(1 / widest),
+                single(near),
+                single(far),
+                single(facing * curvature1),
+                single(curvature2),
+                single(inner * inner)};
     }
     struct Reach {
         double begin, end;
@@ -80,7 +81,8 @@ void CutCells::gather()
         while (lowest_ + static_cast<double>(planes_.size()) < row.first[2] + 0.5) planes_.push_back(count_);
         count_ += row.before + row.after;
     }
-    for (PackedNumbers* const numbers : {&place_[0], &place_[1], &place_[2], &fraction_, &thickening_})
+    fraction_.reserve(count_ + kPore);
+    for (Packed<float>* const numbers : {&place_[0], &place_[1], &place_[2], &thickening_})
         numbers->reserve(count_ + kPore);
     sphere_kernels().gather(rows_.data(), rows_.data() + rows_.size(), fraction_.data(), place_[0].data(),
                             place_[1].data(), place_[2].data());
@@ -92,7 +94,7 @@ void CutCells::thicken(const PoreLaw& law, double radius, const std::vector<Oppo
 {
     if (count_ == 0) return;  // a sphere outside of the lattice, beside its own images
     const SphereKernels& kernels = sphere_kernels();
-    std::fill_n(thickening_.data(), padded_to_packs(count_), 0.0);
+    std::fill_n(thickening_.data(), padded_to_packs(count_), 0.0F);
     for (const Opposite& other : opposite) {
         const Pore pore(law, radius, other);
         const auto reach = pore.reach_z();

@@ -64,8 +64,9 @@ private:
     std::vector<std::size_t> planes_;  // first cell of each plane
     double lowest_ = 0;                // plane
     std::size_t count_ = 0;
-    std::array<PackedNumbers, 3> place_;  // from the centre of the sphere
-    PackedNumbers fraction_, thickening_;
+    std::array<Packed<float>, 3> place_;  // from the centre of the sphere
+    PackedNumbers fraction_;
+    Packed<float> thickening_;
 };
 
 }  // namespace lbm

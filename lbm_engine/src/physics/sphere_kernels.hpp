@@ -9,30 +9,32 @@ namespace lbm {
 /// Arrays that these kernels work on have room for whole packs; what lies beyond the last element is no more than read, or overwritten.
 inline constexpr std::size_t kPack = 8;
 
-/// Cells that a pore is asked about at a time.
+/// Cells that a pore is asked about at a time: two registers of floats.
 inline constexpr std::size_t kPore = 4 * kPack;
 
 constexpr std::size_t padded_to_packs(std::size_t n) { return (n + kPack - 1) / kPack * kPack; }
 
 /// Numbers in memory that begins on a cache line: packs of them then cross no border of one.
-class PackedNumbers {
+template <class T>
+class Packed {
 public:
     /// Room for n of them; keeps what is there.
     void reserve(std::size_t n)
     {
         if (padded_to_packs(n) > kPack * packs_.size()) packs_.resize(n / kPack + 1 + packs_.size() / 2);
     }
-    double* data() noexcept { return packs_.data()->numbers; }
-    const double* data() const noexcept { return packs_.data()->numbers; }
-    double& operator[](std::size_t i) noexcept { return data()[i]; }
-    double operator[](std::size_t i) const noexcept { return data()[i]; }
+    T* data() noexcept { return packs_.data()->numbers; }
+    const T* data() const noexcept { return packs_.data()->numbers; }
+    T& operator[](std::size_t i) noexcept { return data()[i]; }
+    T operator[](std::size_t i) const noexcept { return data()[i]; }
 
 private:
-    struct alignas(kPack * sizeof(double)) Numbers {
-        double numbers[kPack]{};
+    struct alignas(kPack * sizeof(T)) Numbers {
+        T numbers[kPack]{};
     };
     std::vector<Numbers> packs_;
 };
+using PackedNumbers = Packed<double>;
 
 /// The cells of a row that a solid touches, begin to end; those from full_begin to full_end are full. Without full cells both are the end.
 struct RowEnds {
@@ -72,12 +74,12 @@ struct CutRow {
     std::array<double, 3> first;  ///< centre of the first one
 };
 
-/// A pore between a sphere and what stands opposite (CutCells), in the form h = curvature r^2 - r.towards + distance.
+/// A pore between a sphere and what stands opposite (CutCells), in the form h = curvature r^2 - r.towards + distance. Its law is an empirical one: 32 bits do.
 struct PoreShape {
-    std::array<double, 3> towards;
-    double curvature, distance, over_widest, near, far;
-    double facing, curvature2;  ///< C / R1 and 1 / R2
-    double inner2;              ///< no cell whose centre is nearer than this, squared, is cut
+    std::array<float, 3> towards;
+    float curvature, distance, over_widest, near, far;
+    float facing, curvature2;  ///< C / R1 and 1 / R2
+    float inner2;              ///< no cell whose centre is nearer than this, squared, is cut
 };
 
 /// What takes time when spheres are mapped (SphereFraction, CutCells).
@@ -96,12 +98,12 @@ struct SphereKernels {
                       double* fraction) noexcept;
     void (*ends)(const PlaneOfRows& rows, RowEnds* ends) noexcept;
     /// Copies the cells of rows one after the other: fractions and places.
-    void (*gather)(const CutRow* row, const CutRow* end, double* fraction, double* x, double* y, double* z) noexcept;
+    void (*gather)(const CutRow* row, const CutRow* end, double* fraction, float* x, float* y, float* z) noexcept;
     /// Raises the thickening of cells, kPore at a time, by what a pore asks for.
-    void (*narrow)(const PoreShape& pore, const double* x, const double* y, const double* z, std::size_t count,
-                   double* thickening) noexcept;
+    void (*narrow)(const PoreShape& pore, const float* x, const float* y, const float* z, std::size_t count,
+                   float* thickening) noexcept;
     /// Thickens fractions, in whole packs.
-    void (*thicken)(const double* thickening, std::size_t count, double* fraction) noexcept;
+    void (*thicken)(const float* thickening, std::size_t count, double* fraction) noexcept;
 };
 
 /// The widest variant that this processor runs. All variants give the same bits.

@@ -148,7 +148,7 @@ void ends(const PlaneOfRows& rows, RowEnds* ends) noexcept
     }
 }
 
-void gather(const CutRow* row, const CutRow* end, double* fraction, double* x, double* y, double* z) noexcept
+void gather(const CutRow* row, const CutRow* end, double* fraction, float* x, float* y, float* z) noexcept
 {
     for (; row != end; ++row) {
         const V y0 = all(row->first[1]), z0 = all(row->first[2]);
@@ -156,10 +156,10 @@ void gather(const CutRow* row, const CutRow* end, double* fraction, double* x, d
         {
             int i = 0;
             do {  // at least one pack, so that no branch has to be foreseen; what follows begins where the cells end
-                write(fraction + i, read(from + i));
-                write(x + i, (x0 + i) + kLanes);
-                write(y + i, y0);
-                write(z + i, z0);
+                store<kWidth>(fraction + i, read(from + i));
+                store<kWidth>(x + i, (x0 + i) + kLanes);
+                store<kWidth>(y + i, y0);
+                store<kWidth>(z + i, z0);
                 i += kWidth;
             } while (i < count);
             fraction += count;
@@ -173,44 +173,47 @@ void gather(const CutRow* row, const CutRow* end, double* fraction, double* x, d
     }
 }
 
-void narrow(const PoreShape& shape, const double* xs, const double* ys, const double* zs, std::size_t count,
-            double* thickening) noexcept
+void narrow(const PoreShape& shape, const float* xs, const float* ys, const float* zs, std::size_t count,
+            float* thickening) noexcept
 {
+    constexpr int kFloats = 2 * kWidth, kRegisters = kPore / kFloats;
+    using F = Pack<kFloats, float>;
     const PoreShape pore = shape;  // which no store can change
-    const V zero{}, one = all(1);
+    const F zero{}, one = zero + 1;
     for (std::size_t i = 0; i < count; i += kPore) {
-        V h[kTogether], along[kTogether], r2[kTogether], t[kTogether];
+        F h[kRegisters], along[kRegisters], r2[kRegisters], t[kRegisters];
         const auto each = [&](auto&& step) __attribute__((always_inline))
         {
 #pragma GCC unroll 4
-            for (std::size_t n = 0; n < kTogether; ++n) step(n, i + n * kPack);
+            for (std::size_t n = 0; n < kRegisters; ++n) step(n, i + n * kFloats);
         };
+        const auto read_floats = [](const float* p) __attribute__((always_inline)) { return load<kFloats, float>(p); };
         each([&](std::size_t n, std::size_t at) __attribute__((always_inline)) {
-            const V x = read(xs + at), y = read(ys + at), z = read(zs + at);
+            const F x = read_floats(xs + at), y = read_floats(ys + at), z = read_floats(zs + at);
             r2[n] = x * x + y * y + z * z;
             along[n] = x * pore.towards[0] + y * pore.towards[1] + z * pore.towards[2];
         });
         each([&](std::size_t n, std::size_t) __attribute__((always_inline)) {
-            const V width = pore.curvature * r2[n] - along[n] + pore.distance;
+            const F width = pore.curvature * r2[n] - along[n] + pore.distance;
             h[n] = width > 0 ? width : zero;
             t[n] = (pore.near + pore.far * h[n]) * h[n] / (1 + h[n] * h[n] * h[n]);
         });
         each([&](std::size_t n, std::size_t at) __attribute__((always_inline)) {
-            const V wide = h[n] * pore.over_widest, narrow = 1 - wide * wide, in_reach = narrow > 0 ? narrow : zero;
-            const V facing = pore.facing * (along[n] - pore.curvature2 * r2[n]);  // -C r.s / (R1 R2)
-            const V asked = t[n] * in_reach * (facing < 1 ? facing : one);
-            const V at_surface = r2[n] >= pore.inner2 ? asked : zero;  // not where parts of a body overlap
-            const V before = read(thickening + at);
-            write(thickening + at, at_surface > before ? at_surface : before);
+            const F wide = h[n] * pore.over_widest, narrow = 1 - wide * wide, in_reach = narrow > 0 ? narrow : zero;
+            const F facing = pore.facing * (along[n] - pore.curvature2 * r2[n]);  // -C r.s / (R1 R2)
+            const F asked = t[n] * in_reach * (facing < 1 ? facing : one);
+            const F at_surface = r2[n] >= pore.inner2 ? asked : zero;  // not where parts of a body overlap
+            const F before = read_floats(thickening + at);
+            store<kFloats, float>(thickening + at, at_surface > before ? at_surface : before);
         });
     }
 }
 
-void thicken(const double* thickening, std::size_t count, double* fraction) noexcept
+void thicken(const float* thickening, std::size_t count, double* fraction) noexcept
 {
     for (std::size_t i = 0; i < count; i += kWidth) {
         const V eps = read(fraction + i), m = 1 - eps;
-        write(fraction + i, eps + read(thickening + i) * (eps * m) * (m * m));
+        store<kWidth>(fraction + i, eps + load<kWidth>(thickening + i) * (eps * m) * (m * m));
     }
 }
 
