@@ -25,11 +25,11 @@ def check_close(found, expected, tolerance, message=""):
 
 
 def check_raises(kind, text, function):
-    """`function` raises exactly this kind with this text, and its message stands alone."""
+    """`function` raises this kind with this text, and its message stands alone."""
     try:
         function()
     except Exception as error:
-        check(type(error) is kind, "raised %r instead of %s" % (error, kind.__name__))
+        check(isinstance(error, kind), "raised %r instead of %s" % (error, kind.__name__))
         check(text in str(error), "message %r does not say %r" % (str(error), text))
         return str(error)
     raise AssertionError("nothing raised; expected %s: %s" % (kind.__name__, text))

@@ -15,7 +15,7 @@ struct Attribute {
     const char* doc;
     bool live;  ///< may change while the fluid exists
     boost::python::object (*get)(const Settings&);
-    void (*set)(Settings&, const boost::python::object&);  ///< Python's TypeError if the value is of another kind
+    void (*set)(Settings&, const boost::python::object&);  ///< throws if the value is of another kind (conversions.hpp)
 };
 
 const std::vector<Attribute>& attributes();

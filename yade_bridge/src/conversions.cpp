@@ -11,12 +11,22 @@ namespace yadelbm {
 namespace bp = boost::python;
 namespace {
 
+/// What is bad input to this engine is a ValueError; what has the wrong type a TypeError in Python. This is both.
+PyObject* wrong_type()
+{
+    static PyObject* const type = [] {
+        const bp::tuple bases = bp::make_tuple(bp::object(bp::handle<>(bp::borrowed(PyExc_TypeError))),
+                                               bp::object(bp::handle<>(bp::borrowed(PyExc_ValueError))));
+        return PyErr_NewException("yadelbm.WrongType", bases.ptr(), nullptr);
+    }();
+    return type;
+}
+
 [[noreturn]] void type_error(const char* name, const bp::object& value, const char* wanted)
 {
     const std::string got = bp::extract<std::string>(bp::str(value));
     const std::string type = bp::extract<std::string>(value.attr("__class__").attr("__name__"));
-    PyErr_SetString(PyExc_TypeError,
-                    (std::string(name) + " = " + got + ": must be " + wanted + ", not " + type).c_str());
+    PyErr_SetString(wrong_type(), (std::string(name) + " = " + got + ": must be " + wanted + ", not " + type).c_str());
     bp::throw_error_already_set();
     throw;  // never reached
 }

@@ -10,7 +10,7 @@
 
 namespace yadelbm {
 
-/// @name From Python. A value of another kind is a TypeError that names the attribute and what it wants.
+/// @name From Python. A value of another kind is an error, both TypeError and ValueError, that names the attribute and what it wants.
 ///@{
 void from_python(const char* name, const boost::python::object& value, double& result);
 void from_python(const char* name, const boost::python::object& value, int& result);
