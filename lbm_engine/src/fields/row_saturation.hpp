@@ -17,10 +17,10 @@ constexpr std::size_t padded_to_blocks(std::size_t n) { return (n + kBlock - 1) 
 
 /**
  * Populations of the row that will be swept next. Memory is asked for most of them while the cells of this one collide, and for the rest while its solids are served, block by
- * block: it would idle meanwhile.
+ * block: it would idle meanwhile. (Solids that do not listen are served half.)
  */
 struct RowAhead {
-    static constexpr int kFirst = 2, kAll = 6;  ///< asked for while solids speak, and in all before and after the sweep
+    static constexpr int kFirst = 3, kAll = 6;  ///< asked for while solids speak, and in all before and after the sweep
     std::array<const char*, kAll> populations{};  ///< where they begin
     int block_bytes = 0;                          ///< 0: there is no such row
 

@@ -75,7 +75,7 @@ void bounce(RowSaturation& cells, int x0, int n, const std::uint8_t* bounces)
             row.z + piece.image[2] * row.n[2] + 0.5 - X[2]};
 }
 
-template <bool fixed, bool heard>
+template <bool fixed>
 [[gnu::always_inline]] inline void saturate_row(const PiecesOfRow& row, RowSaturation& cells)
 {
     using C = RowSaturation;
@@ -91,7 +91,6 @@ template <bool fixed, bool heard>
         const auto say = [&](int block, const Cells& e, const Cells& at) __attribute__((always_inline))
         {
             cells.ahead.ask_first(block);
-            if constexpr (!heard) cells.ahead.ask_rest(block);
             const bool first = cells.covered[block] == C::kFluid;
             cells.covered[block] = std::max<std::uint8_t>(cells.covered[block], C::kSolids);
             const auto tell = [&](int column, const Cells& term) __attribute__((always_inline))
@@ -166,9 +165,8 @@ template <bool fixed>
 void saturate(const PiecesOfRow& row, RowSaturation& cells) noexcept
 {
     cells.fixed = row.fixed;
-    if (!row.fixed) saturate_row<false, true>(row, cells);
-    else if (cells.heard) saturate_row<true, true>(row, cells);
-    else saturate_row<true, false>(row, cells);
+    if (row.fixed) saturate_row<true>(row, cells);
+    else saturate_row<false>(row, cells);
 }
 
 void collect(const PiecesOfRow& row, const RowSaturation& cells, PieceSums* sums) noexcept

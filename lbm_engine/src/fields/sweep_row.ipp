@@ -97,11 +97,14 @@ template <class L, bool inertia, Kind kind, int W, class T>
         else if (row->covered[x / kBlock] == C::kWall)
             watch.see(collide_beside_wall<L, inertia>(f, parameters, cell, read(C::kBounce), answer));
         else watch.see(collide_with_solids<L, inertia>(f, parameters, cell, answer));
-        if (row->heard)
+        if (row->heard) {
             for (int d = 0; d < 3; ++d) {
                 store<W>(at(C::kForce + d), answer.force[d]);
                 store<W>(at(C::kMomentum + d), cell.epsilon * answer.momentum[d]);
             }
+        } else {
+            row->ahead.ask_rest(x / kBlock);
+        }
         if constexpr (kind != Kind::cut_by_fixed) store<W>(at(C::kWeight), (1 - cell.epsilon) * answer.weight);
     }
     store_all<L>(p, x, f);
