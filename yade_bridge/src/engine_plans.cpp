@@ -35,7 +35,7 @@ double LbmEngine::suggest_dx(double solid_fraction, double memory, double second
     Settings s = settings_;
     s.dx = Settings::kUnset;
     std::vector<lbm::Solid> solids;
-    read_solids(now, {s.mask, s.ids}, 0, solids);
+    read_solids(now, {s.mask, s.ids}, solids);
     check_selection(s, solids);
     lbm::Vec3 lengths{};
     double box = 1, occupied = 0;
@@ -53,7 +53,7 @@ double LbmEngine::suggest_dt(double largest, double seconds) const
     const yade::Scene& now = *Singleton<yade::Omega>::instance().getScene();
     check(settings_, true);
     std::vector<lbm::Solid> solids;
-    read_solids(now, {settings_.mask, settings_.ids}, 0, solids);
+    read_solids(now, {settings_.mask, settings_.ids}, solids);
     check_selection(settings_, solids);
     if (std::isnan(largest)) largest = 0.3 * critical_time_step();
     if (!std::isfinite(largest))
@@ -70,7 +70,7 @@ FluidPlan LbmEngine::plan() const
     const std::lock_guard lock(mutex_);
     const yade::Scene& now = *Singleton<yade::Omega>::instance().getScene();
     std::vector<lbm::Solid> solids;
-    read_solids(now, {settings_.mask, settings_.ids}, 0, solids);
+    read_solids(now, {settings_.mask, settings_.ids}, solids);
     check_scene(now, settings_, solids);
     check_lubrication(settings_, lubrication_law(now));
     lbm::PlanRequest request = plan_request(now, settings_, solids);

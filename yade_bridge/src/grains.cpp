@@ -38,7 +38,7 @@ const State& moving_state(const Body& body, const std::vector<yade::shared_ptr<B
     return *body.state;
 }
 
-lbm::Solid solid(const Body& body, double lead, const State& moving)
+lbm::Solid solid(const Body& body, const State& moving)
 {
     const State& state = *body.state;
     lbm::Solid result;
@@ -59,8 +59,6 @@ lbm::Solid solid(const Body& body, double lead, const State& moving)
     result.position = vec3(state.se3.position);
     result.velocity = vec3(state.vel);
     result.angular_velocity = vec3(state.angVel);
-    if (lead != 0)
-        for (int d = 0; d < 3; ++d) result.position[d] += lead * result.velocity[d];
     // the bits of YADE's State: translations in the lower three, rotations in the next three
     constexpr unsigned kTranslations = 7, kRotations = 56;
     if ((moving.blockedDOFs & kTranslations) != kTranslations) result.mass = moving.mass;
@@ -71,26 +69,26 @@ lbm::Solid solid(const Body& body, double lead, const State& moving)
 yade::Vector3r vector3r(const lbm::Vec3& v) { return {v[0], v[1], v[2]}; }
 
 /// Linear and angular.
-struct Impulse {
+struct ImpulseOnGrain {
     yade::Vector3r linear = yade::Vector3r::Zero(), angular = yade::Vector3r::Zero();
 };
 
-Impulse impulse_on(yade::Scene& scene, double dt, const HeldLoads& owed, Body::id_t id)
+ImpulseOnGrain impulse_on(yade::Scene& scene, double dt, const HeldLoads& owed, Body::id_t id)
 {
-    const HeldLoads::Impulse more = owed.owed(id);
+    const Impulse more = owed.owed(id);
     return {dt * scene.forces.getForce(id) + vector3r(more.linear),
             dt * scene.forces.getTorque(id) + vector3r(more.angular)};
 }
 
 /// What the clumps get themselves and through their members, solids of the fluid or not.
-std::unordered_map<int, Impulse> impulses_on_clumps(yade::Scene& scene, double dt, const HeldLoads& owed)
+std::unordered_map<int, ImpulseOnGrain> impulses_on_clumps(yade::Scene& scene, double dt, const HeldLoads& owed)
 {
-    std::unordered_map<int, Impulse> impulses;
+    std::unordered_map<int, ImpulseOnGrain> impulses;
     const auto& bodies = scene.bodies->body;
     for (const auto& body : bodies) {
         if (!body || body->clumpId == Body::ID_NONE) continue;
-        const Impulse on = impulse_on(scene, dt, owed, body->id);
-        Impulse& sum = impulses[body->clumpId];
+        const ImpulseOnGrain on = impulse_on(scene, dt, owed, body->id);
+        ImpulseOnGrain& sum = impulses[body->clumpId];
         const State& clump = moving_state(*body, bodies);
         sum.linear += on.linear;
         sum.angular += on.angular + (body->state->se3.position - clump.se3.position).cross(on.linear);
@@ -111,7 +109,7 @@ struct Change {
     yade::Vector3r velocity, spin;
 };
 
-Change change_by(const Impulse& on, const State& state, const yade::Vector3r& fall)
+Change change_by(const ImpulseOnGrain& on, const State& state, const yade::Vector3r& fall)
 {
     Change change{yade::Vector3r::Zero(), yade::Vector3r::Zero()};
     if (state.mass > 0) change.velocity = on.linear / state.mass + fall;
@@ -134,11 +132,11 @@ void foretell(yade::Scene& scene, double dt, std::vector<lbm::Solid>& solids, co
     const auto& bodies = scene.bodies->body;
     const yade::Vector3r fall = dt * gravity_of(scene);
     const bool clumps = std::any_of(solids.begin(), solids.end(), [](const lbm::Solid& s) { return s.body >= 0; });
-    const auto on_clumps = clumps ? impulses_on_clumps(scene, dt, owed) : std::unordered_map<int, Impulse>{};
+    const auto on_clumps = clumps ? impulses_on_clumps(scene, dt, owed) : std::unordered_map<int, ImpulseOnGrain>{};
     for (lbm::Solid& solid : solids) {
         const Body& body = *bodies[static_cast<std::size_t>(solid.id)];
         const bool member = body.isClumpMember();
-        const Impulse on = member ? on_clumps.at(body.clumpId) : impulse_on(scene, dt, owed, body.id);
+        const ImpulseOnGrain on = member ? on_clumps.at(body.clumpId) : impulse_on(scene, dt, owed, body.id);
         const Change change = change_by(on, moving_state(body, bodies), fall);
         const yade::Vector3r at_centre = change.velocity + change.spin.cross(vector3r(solid.lever));
         for (int d = 0; d < 3; ++d) {
@@ -148,12 +146,12 @@ void foretell(yade::Scene& scene, double dt, std::vector<lbm::Solid>& solids, co
     }
 }
 
-void read_solids(const yade::Scene& scene, const Selection& selection, double lead, std::vector<lbm::Solid>& solids)
+void read_solids(const yade::Scene& scene, const Selection& selection, std::vector<lbm::Solid>& solids)
 {
     const auto& bodies = scene.bodies->body;
     solids.clear();
     const auto take = [&](const yade::shared_ptr<Body>& body) {
-        if (body && passes(*body, selection.mask)) solids.push_back(solid(*body, lead, moving_state(*body, bodies)));
+        if (body && passes(*body, selection.mask)) solids.push_back(solid(*body, moving_state(*body, bodies)));
     };
     if (selection.ids.empty()) {
         solids.reserve(bodies.size());

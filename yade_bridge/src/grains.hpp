@@ -20,9 +20,8 @@ struct Selection {
  * Members of clumps are parts of one rigid body, with the velocity that YADE gives them and the mass of the clump; clumps themselves have no shape. A body
  * that cannot answer to forces (blocked, or without mass) has infinite mass, likewise for rotation. Erased bodies, other
  * shapes and ids that do not exist are passed over.
- * @param lead  positions are taken this much later, along the velocity [s]
  */
-void read_solids(const yade::Scene& scene, const Selection& selection, double lead, std::vector<lbm::Solid>& solids);
+void read_solids(const yade::Scene& scene, const Selection& selection, std::vector<lbm::Solid>& solids);
 
 /**
  * Brings the velocities of the solids to a later time, under the forces that stand in the scene now and the integrator's gravity, as if nothing else happened to them but

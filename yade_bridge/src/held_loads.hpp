@@ -11,10 +11,16 @@ class Scene;
 
 namespace yadelbm {
 
+/// What changes the velocity and the spin of a body.
+struct Impulse {
+    lbm::Vec3 linear{}, angular{};  // [N s], [N m s]
+};
+
 /**
  * Impulses that the fluid gave and the grains have not received yet.
  *
- * A fluid step gives load * dt at once; the grains get it as a constant force over the grain steps until the next one.
+ * A fluid step gives load * dt at once; the grains get it as a constant force over just the time that the fluid step covers, also where
+ * that is no whole number of their steps: in each they get the mean of the loads over it.
  * What was given and what was received add up exactly, whatever happens to the steps on the way, so that the momentum of
  * fluid and grains is conserved at any ratio of the two.
  */
@@ -28,34 +34,33 @@ public:
      */
     void add(const std::vector<lbm::Solid>& solids, const std::vector<lbm::SolidLoad>& loads, double dt);
 
-    /// From now on everything left is delivered evenly over this time [s], > 0.
-    void spread_over(double duration);
+    /**
+     * The forces of the grain step that begins now deliver all that is left, but for the share of the last fluid step that lies beyond it.
+     * @param grain_dt  of that grain step [s]
+     * @param beyond    how far the last fluid step reaches beyond the end of that grain step, >= 0 [s]
+     */
+    void hold_for(double grain_dt, double beyond);
 
     /// Adds the current forces and torques to the scene's.
     void write(yade::Scene& scene) const;
 
     /// The grains were under the current forces for this long [s].
-    void delivered(double elapsed) { delivered_ += elapsed; }
+    void delivered(double elapsed);
 
-    struct Impulse {
-        lbm::Vec3 linear{}, angular{};  // [N s], [N m s]
-    };
-    /// What a body has not received yet, counted when a fluid step was last added.
+    /// What a body has not received yet.
     Impulse owed(std::int64_t id) const;
 
     /// Sum of the linear impulses left after this much more time under the current forces [N s].
     lbm::Vec3 undelivered(double elapsed) const;
 
 private:
-    void settle();
-
     struct Held {
         std::int64_t id;
-        lbm::Vec3 impulse, angular_impulse;  // left to deliver when the current forces began
-        lbm::Vec3 force, torque;             // now on the grain
+        Impulse left;
+        Impulse rate;  // of the last fluid step, per time: its load
+        Impulse now;   // on the grain, per time
     };
     std::vector<Held> held_;     // ascending ids
-    double delivered_ = 0;       // time under the current forces
     std::vector<Held> scratch_;  // to merge without allocating
 };
 

@@ -87,7 +87,7 @@ void LbmEngine::ask_python()
     const Interpreter held;
     try {
         std::vector<lbm::Solid> solids;
-        read_solids(*scene, {settings_.mask, settings_.ids}, 0, solids);
+        read_solids(*scene, {settings_.mask, settings_.ids}, solids);
         asked_.lubrication_law = lubrication_law(*scene);
         asked_.contact_frequency = contact_frequency(*scene, solids);
         asked_.warnings = scene_warnings(*scene, settings_, solids);
@@ -117,16 +117,13 @@ void LbmEngine::advance()
         throw lbm::RunError("LbmEngine: the fluid stopped earlier and is lost: " + failure_ +
                             "; put a new LbmEngine, which starts from rest, into O.engines");
     if (!fluid_) start();
-    bool spread = follow_grains();
+    follow_grains();
     if (replan_ && schedule_.fluid_step_due()) follow_time_step();
     check_grain_step();
-    for (bool again = false; schedule_.fluid_step_due(); again = spread = true) step_fluid(again);
+    while (schedule_.fluid_step_due()) step_fluid();
 
     const Stopwatch out;
-    if (spread) {
-        const auto grain_steps = std::max<std::int64_t>(1, schedule_.grain_steps_to_next());
-        held_.spread_over(static_cast<double>(grain_steps) * schedule_.grain_dt());
-    }
+    held_.hold_for(schedule_.grain_dt(), schedule_.beyond());
     held_.write(*scene);
     account(kLoadsOut, out.seconds(), 1);
     if (settings_.lubrication) add_films();
@@ -136,7 +133,7 @@ void LbmEngine::advance()
 void LbmEngine::add_films()
 {
     const Stopwatch time;
-    read_solids(*scene, {settings_.mask, settings_.ids}, 0, surfaces_);
+    read_solids(*scene, {settings_.mask, settings_.ids}, surfaces_);
     foretell(*scene, schedule_.grain_dt(), surfaces_);
     film_loads_ = fluid_->film_loads(surfaces_, schedule_.grain_dt());
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
@@ -166,7 +163,7 @@ void LbmEngine::start()
 {
     started_in_ = scene;
     scene_is_there_ = Singleton<yade::Omega>::instance().getScene();
-    read_solids(*scene, {settings_.mask, settings_.ids}, 0, solids_);
+    read_solids(*scene, {settings_.mask, settings_.ids}, solids_);
     check_scene(*scene, settings_, solids_);
     check_lubrication(settings_, asked_.lubrication_law);
     lbm::PlanRequest request = plan_request(*scene, settings_, solids_);
@@ -195,8 +192,8 @@ int LbmEngine::threads_to_use()
     return processors;
 }
 
-/// Brings the schedule and the deliveries to the start of this grain step; true if the rest has to be spread anew.
-bool LbmEngine::follow_grains()
+/// Brings the schedule and the deliveries to the start of this grain step.
+void LbmEngine::follow_grains()
 {
     // the same step again happens after an error; steps without us (dead, or out of O.engines) are not the fluid's
     if (last_iter_ >= 0 && scene->iter != last_iter_) {
@@ -207,12 +204,11 @@ bool LbmEngine::follow_grains()
     }
     last_iter_ = scene->iter;
     last_time_ = scene->time;
-    if (scene->dt == schedule_.grain_dt()) return false;
+    if (scene->dt == schedule_.grain_dt()) return;
     if (!(std::isfinite(scene->dt) && scene->dt > 0))
         throw lbm::ConfigError("O.dt = " + text(scene->dt) + ": must be finite and > 0 [s]");
     schedule_.change_grain_dt(scene->dt);
     replan_ = true;
-    return true;
 }
 
 /// Gives the fluid the time step that fits the grains' new one, if the present one has become a poor fit. Small changes are
@@ -221,7 +217,7 @@ void LbmEngine::follow_time_step()
 {
     replan_ = false;
     if (!std::isnan(settings_.tau)) return;
-    read_solids(*scene, {settings_.mask, settings_.ids}, 0, solids_);
+    read_solids(*scene, {settings_.mask, settings_.ids}, solids_);
     try {
         const lbm::Plan plan = lbm::plan_time_step(plan_request(*scene, settings_, solids_));
         const double ratio = plan.fluid_dt / fluid_->dt();
@@ -258,22 +254,19 @@ double LbmEngine::length_of_last_grain_step(const yade::Scene& now) const
 }
 
 /**
- * Within a grain step that holds several fluid steps grains take up their loads from one of these to the next, as they will by the grain step's end: held at the velocity of
- * its beginning, light grains in a viscous liquid would get far more than it takes to stop them.
- * @param again  whether a fluid step was made in this grain step before
+ * A fluid step that begins within a grain step meets the grains where they will be by then. They have taken up their loads of the fluid steps
+ * before: at the velocity of the grain step's beginning, light grains in a viscous liquid would get far more than it takes to stop them.
  */
-void LbmEngine::step_fluid(bool again)
+void LbmEngine::step_fluid()
 {
     check_place(*scene, settings_);
     const Stopwatch in;
     std::swap(solids_, solids_before_);
+    read_solids(*scene, {settings_.mask, settings_.ids}, solids_);
     const double lead = schedule_.lead();
-    read_solids(*scene, {settings_.mask, settings_.ids}, again ? 0 : lead, solids_);
-    if (again) {
-        foretell(*scene, lead, solids_, held_);
-        for (lbm::Solid& solid : solids_)
-            for (int d = 0; d < 3; ++d) solid.position[d] += lead * solid.velocity[d];
-    }
+    if (lead > 0) foretell(*scene, lead, solids_, held_);
+    for (lbm::Solid& solid : solids_)
+        for (int d = 0; d < 3; ++d) solid.position[d] += lead * solid.velocity[d];
     look_for_moves_without_velocity();
     check_cell(*scene, settings_, solids_);
     if (selection_changed_) check_selection(settings_, solids_);

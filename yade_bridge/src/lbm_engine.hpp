@@ -94,11 +94,11 @@ private:
     void start();
     int threads_to_use();
     void forget();
-    bool follow_grains();
+    void follow_grains();
     void follow_time_step();
     void check_grain_step() const;
     double length_of_last_grain_step(const yade::Scene& now) const;
-    void step_fluid(bool again);
+    void step_fluid();
     void look_for_moves_without_velocity();
     void add_films();
     void account(Part part, double seconds, long executions);

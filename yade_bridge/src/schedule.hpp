@@ -28,10 +28,11 @@ public:
     /// Whether a fluid step begins in the current grain step.
     bool fluid_step_due() const noexcept { return lead() < grain_dt_ - tolerance(); }
 
-    /// Grain steps, the current one included, before the next one in which a fluid step begins; at least 1 once none is due.
-    std::int64_t grain_steps_to_next() const noexcept
+    /// How far the fluid reaches beyond the end of the current grain step [s]; 0 where it does not.
+    double beyond() const noexcept
     {
-        return static_cast<std::int64_t>(std::floor((lead() + tolerance()) / grain_dt_));
+        const double beyond = lead() - grain_dt_;
+        return beyond > tolerance() ? beyond : 0;
     }
 
     void fluid_stepped() noexcept { ++fluid_steps_; }
