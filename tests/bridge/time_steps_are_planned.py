@@ -41,6 +41,10 @@ def suggested_steps_and_cells_are_what_the_plan_takes():
     check_close(fluid.plan().memory / memory, 27 / 19, 0.02, "memory of the other lattice")
     check_raises(ValueError, "beyond the budget of 0.001 s", lambda: fluid.suggestDt(seconds=1e-3))
     check_raises(ValueError, "solid fraction = 1.5", lambda: fluid.suggestDx(solidFraction=1.5))
+    for none in (0, -1, math.nan):
+        check_raises(ValueError, "memory = %g: must be > 0 bytes" % none, lambda: fluid.suggestDx(memory=none))
+        check_raises(ValueError, "seconds = %g: must be > 0 s" % none, lambda: fluid.suggestDx(seconds=none))
+        check_raises(ValueError, "seconds = %g: must be > 0 s" % none, lambda: fluid.suggestDt(seconds=none))
     O.run(30, True)
     check(fluid.plan().cost != plan.cost or "assumed" in str(fluid.plan()), "the measured throughput is not used")
 

@@ -5,6 +5,8 @@
 
 #include <cppunit/extensions/HelperMacros.h>
 
+#include <numbers>
+
 namespace {
 
 using namespace lbm;
@@ -18,6 +20,7 @@ class SpheresThatOverlap : public CppUnit::TestFixture {
     CPPUNIT_TEST(the_worst_of_all_pairs_is_named);
     CPPUNIT_TEST(contacts_and_bodies_are_no_overlap);
     CPPUNIT_TEST(periodic_faces_are_looked_through_and_walls_are_not);
+    CPPUNIT_TEST(the_volume_of_a_union_counts_what_is_shared_once);
     CPPUNIT_TEST_SUITE_END();
 
     const FluidConfig box_ = test::lattice_config({30, 20, 20}, 1);
@@ -61,6 +64,20 @@ class SpheresThatOverlap : public CppUnit::TestFixture {
         CPPUNIT_ASSERT_EQUAL(0, overlaps(closed, at_both_ends).pairs);
         CPPUNIT_ASSERT_EQUAL(
             0, overlaps(closed, {test::sphere(0, {-9, 10, 10}, 4), test::sphere(1, {-8, 10, 10}, 4)}).pairs);
+    }
+
+    void the_volume_of_a_union_counts_what_is_shared_once()
+    {
+        constexpr double kLines = 1e-3;
+        const double ball = 4 * std::numbers::pi / 3;
+        const Solid one = test::sphere(0, {2, 3, 4}, 1);
+        LBM_ASSERT_CLOSE(0.0, union_volume({}), kLines, 1.0);
+        LBM_ASSERT_CLOSE(ball, union_volume({one}), kLines, ball);
+        LBM_ASSERT_CLOSE(ball, union_volume({one, test::sphere(1, {2.1, 3.2, 4.3}, 0.5)}), kLines, ball);
+        LBM_ASSERT_CLOSE(2 * ball, union_volume({one, test::sphere(1, {3.4, 4.4, 5.4}, 1)}), kLines, 2 * ball);
+        // Equal spheres a radius apart share 5/16 of one, in whatever direction.
+        for (const Vec3& other : {Vec3{3, 3, 4}, Vec3{2, 3, 5}, Vec3{2.36, 3.48, 4.8}})
+            LBM_ASSERT_CLOSE(27.0 / 16 * ball, union_volume({one, test::sphere(1, other, 1)}), kLines, ball);
     }
 };
 

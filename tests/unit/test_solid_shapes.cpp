@@ -405,6 +405,9 @@ class SolidShapes : public CppUnit::TestFixture {
         pipe.axis = 1;
         pipe.body = 2;
         refused(pipe);
+        pipe.body = -1;
+        pipe.angular_velocity = {0, 1e-3, 0};
+        refused(pipe);
     }
 };
 

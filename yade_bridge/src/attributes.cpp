@@ -51,12 +51,13 @@ const std::vector<Attribute>& attributes()
         YADELBM_ATTRIBUTE(
             "boundaryVelocity", boundary_velocity, true,
             "Velocities of the six faces [m/s], default 0: of a velocity face, in any direction; a noSlip face with "
-            "one is a wall that moves in its own plane. May be changed at any time."),
+            "one is a wall that moves in its own plane. May be changed at any time, all six at once: what is read is a "
+            "copy."),
         YADELBM_ATTRIBUTE(
             "boundaryPressure", boundary_pressure, true,
             "Pressures of the six faces [Pa], default 0, where they are pressure faces: in excess of "
             "hydrostatic and drive, as getPorePressure gives them. Of fluid that enters, the pressure where "
-            "it was at rest. May be changed at any time."),
+            "it was at rest. May be changed at any time, all six at once: what is read is a copy."),
         YADELBM_ATTRIBUTE("tau", tau, false,
                           "Relaxation time [fluid steps], sets the fluid's time step (tau - 1/2) dx^2 density / (3 "
                           "viscosity). NaN, the default: chosen so that this is a whole number of steps of O.dt where "

@@ -81,8 +81,10 @@ void check_selection(const Settings& s, const std::vector<lbm::Solid>& solids)
 {
     for (int id : s.ids)
         if (std::none_of(solids.begin(), solids.end(), [id](const lbm::Solid& solid) { return solid.id == id; }))
-            throw lbm::ConfigError("LbmEngine.ids: body " + std::to_string(id) +
-                                   " does not exist, is neither a Sphere nor a Box or is excluded by mask");
+            throw lbm::ConfigError(
+                "LbmEngine.ids: body " + std::to_string(id) +
+                " does not exist, is neither a Sphere nor a Box (of a clump, name the members) or is "
+                "excluded by mask");
     if (solids.empty())
         throw lbm::ConfigError("LbmEngine: no body with a Sphere or Box shape is selected (mask = " +
                                std::to_string(s.mask) + "): append spheres to O.bodies first, or change mask");

@@ -45,7 +45,7 @@ std::string lubrication_law(const yade::Scene& scene);
 void check_lubrication(const Settings& settings, const std::string& law);
 
 /**
- * What in the scene is likely not meant, each a sentence: no body in the fluid's box, bodies that are too light or of a shape that the fluid does not see, damping, another gravity, contacts that do not cross a periodic
+ * What in the scene is likely not meant, each a sentence: no body in the fluid's box, bodies that are too light or of a shape that the fluid does not see, clumps whose mass is not that of their volume, damping, another gravity, contacts that do not cross a periodic
  * face, a time stepper behind the fluid. Asks Python: the interpreter must be held.
  */
 std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& settings,
@@ -56,7 +56,7 @@ std::string overlap_warning(const lbm::FluidConfig& config, const std::vector<lb
 
 /**
  * Frequency sqrt(k / m) of the stiffest contact [rad/s]: of those that there are, else of two equal spheres, from Young's moduli and radii
- * (k = young R, as Ip2_FrictMat_FrictMat_FrictPhys has it); 0 where neither is known. Asks Python: the
+ * (k = young R, as Ip2_FrictMat_FrictMat_FrictPhys has it); 0 where neither is known or the scene has no InteractionLoop. Asks Python: the
  * interpreter must be held.
  */
 double contact_frequency(const yade::Scene& scene, const std::vector<lbm::Solid>& solids);

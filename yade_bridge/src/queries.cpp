@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace yadelbm {
 
@@ -29,13 +30,23 @@ const lbm::SolidLoad* find_load(const std::vector<lbm::Solid>& solids, const std
     return found == solids.end() || found->id != id || index >= loads.size() ? nullptr : &loads[index];
 }
 
+std::string why_not_in_fluid(int id)
+{
+    const auto& bodies = Singleton<yade::Omega>::instance().getScene()->bodies->body;
+    const auto index = static_cast<std::size_t>(id);
+    if (id >= 0 && index < bodies.size() && bodies[index] && bodies[index]->isClump())
+        return " is a clump, whose load is that of its members (O.bodies[" + std::to_string(id) +
+               "].shape.members): ask for theirs";
+    return " was not in the fluid at its last step";
+}
+
 }  // namespace
 
 lbm::SolidLoad LbmEngine::load_on(int id) const
 {
     const std::lock_guard lock(mutex_);
     const lbm::SolidLoad* lattice = find_load(solids_, fluid("fluidForce, fluidTorque, stresslet").loads(), id);
-    if (!lattice) throw std::invalid_argument("body " + std::to_string(id) + " was not in the fluid at its last step");
+    if (!lattice) throw std::invalid_argument("body " + std::to_string(id) + why_not_in_fluid(id));
     lbm::SolidLoad load = *lattice;
     if (const lbm::SolidLoad* films = find_load(surfaces_, film_loads_, id))
         for (int a = 0; a < 3; ++a) {

@@ -12,8 +12,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace yadelbm {
 namespace {
@@ -47,6 +50,8 @@ bool may_reach_into(const Settings& s, const lbm::Solid& solid)
     return true;
 }
 
+double sphere_volume(double radius) { return 4 * std::acos(-1.0) / 3 * std::pow(radius, 3); }
+
 /// Of free bodies; lighter ones follow the fluid unstably (docs/physics.md, "Loads").
 constexpr double kLightest = 0.1;
 
@@ -54,8 +59,7 @@ constexpr double kLightest = 0.1;
 double density_ratio(const Settings& s, const lbm::Solid& solid)
 {
     const auto& h = solid.half_extents;
-    const double volume =
-        solid.shape == lbm::Shape::box ? 8 * h[0] * h[1] * h[2] : 4 * std::acos(-1.0) / 3 * std::pow(solid.radius, 3);
+    const double volume = solid.shape == lbm::Shape::box ? 8 * h[0] * h[1] * h[2] : sphere_volume(solid.radius);
     return solid.mass / (volume * s.density);
 }
 
@@ -71,6 +75,49 @@ void warn_about_light_bodies(const Settings& s, const std::vector<lbm::Solid>& s
                        " times the density of the fluid (" + text(ratio * s.density) +
                        " kg/m3): free bodies are not stable below " + text(kLightest) +
                        " times; is the density of its material in kg/m3?");
+}
+
+/// Relative difference from which on the mass of a clump is worth a warning.
+constexpr double kWrongMass = 0.005;
+
+/// YADE adds up the masses of the members unless it is asked for better, and buoyancy acts on their union.
+void warn_about_masses_of_clumps(const yade::Scene& scene, const std::vector<lbm::Solid>& solids,
+                                 std::vector<std::string>& warnings)
+{
+    std::map<std::int64_t, std::vector<lbm::Solid>> clumps;
+    for (const lbm::Solid& solid : solids)
+        if (solid.body >= 0 && std::isfinite(solid.mass)) clumps[solid.body].push_back(solid);
+    int found = 0;
+    std::string worst;
+    double worst_off = 0;
+    for (const auto& [id, members] : clumps) {
+        if (!std::all_of(members.begin(), members.end(),
+                         [](const lbm::Solid& s) { return s.shape == lbm::Shape::sphere; }))
+            continue;
+        double sum = 0, lightest = std::numeric_limits<double>::infinity(), heaviest = 0;
+        for (const lbm::Solid& member : members) {
+            sum += sphere_volume(member.radius);
+            const bp::object body(scene.bodies->body[static_cast<std::size_t>(member.id)]);
+            const double density = bp::extract<double>(bp::getattr(body.attr("material"), "density", bp::object(0.0)));
+            lightest = std::min(lightest, density);
+            heaviest = std::max(heaviest, density);
+        }
+        const double volume = lbm::union_volume(members), density = members.front().mass / volume;
+        if (sum < (1 + kWrongMass) * volume || !(lightest > 0)) continue;
+        const double off = std::max(density / heaviest, lightest / density) - 1;
+        if (off <= kWrongMass) continue;
+        ++found;
+        if (off <= worst_off) continue;
+        worst_off = off;
+        worst = "Clump " + std::to_string(id) + " weighs " + text(members.front().mass) + " kg, and the " +
+                text(volume) + " m3 that its overlapping members fill would weigh " + text(lightest * volume) +
+                (heaviest > lightest ? " to " + text(heaviest * volume) : "");
+    }
+    if (found == 0) return;
+    warnings.push_back(worst + " kg by the density of its material" +
+                       (found > 1 ? " (the worst of " + std::to_string(found) + " such clumps)" : "") +
+                       ": it sinks with the wrong weight; O.bodies.updateClumpProperties(discretization=50) "
+                       "finds mass and inertia of the union.");
 }
 
 /// More than a cell from all faces of the fluid's box, as far as it is about these axes.
@@ -145,6 +192,10 @@ std::string overlap_warning(const lbm::FluidConfig& config, const std::vector<lb
 
 double contact_frequency(const yade::Scene& scene, const std::vector<lbm::Solid>& solids)
 {
+    const bool contacts = std::any_of(scene.engines.begin(), scene.engines.end(), [](const auto& engine) {
+        return engine && engine->getClassName() == "InteractionLoop";
+    });
+    if (!contacts) return 0;
     const bp::object omega = bp::import("yade.wrapper").attr("Omega")();
     const double found = frequency_of_contacts(omega);
     if (found > 0) return found;
@@ -195,6 +246,7 @@ std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings
         warnings.push_back("No body is in the fluid's box, " + text(s.lower) + " to " + text(s.upper) +
                            " m: have they the same origin, and are all lengths in metres?");
     warn_about_light_bodies(s, solids, warnings);
+    warn_about_masses_of_clumps(scene, solids, warnings);
     warn_about_other_shapes(scene, s, warnings);
     bool behind_fluid = false;
     for (const auto& other : scene.engines) {

@@ -97,7 +97,7 @@ struct Plan : StepEstimate {
  */
 Plan plan_time_step(const PlanRequest& request);
 
-/// What a run may take.
+/// What a run may take; both > 0.
 struct Budget {
     double memory_bytes = PlanRequest::kInfinity;
     double cost = PlanRequest::kInfinity;  ///< wall-clock seconds per simulated second

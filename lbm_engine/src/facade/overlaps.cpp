@@ -3,8 +3,11 @@
 #include "fields/neighbours.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 namespace lbm {
 namespace {
@@ -64,6 +67,41 @@ Overlaps overlaps(const FluidConfig& c, const std::vector<Solid>& solids)
             }
         });
     return found;
+}
+
+double union_volume(const std::vector<Solid>& spheres)
+{
+    if (spheres.empty()) return 0;
+    constexpr int kLines = 64;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    std::array<double, 2> low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+    for (const Solid& s : spheres)
+        for (int d = 0; d < 2; ++d) {
+            low[d] = std::min(low[d], s.position[d] - s.radius);
+            high[d] = std::max(high[d], s.position[d] + s.radius);
+        }
+    double filled = 0;
+    std::vector<std::pair<double, double>> chords;  // of one line
+    for (int j = 0; j < kLines; ++j)
+        for (int i = 0; i < kLines; ++i) {
+            const double x = low[0] + (i + 0.5) / kLines * (high[0] - low[0]);
+            const double y = low[1] + (j + 0.5) / kLines * (high[1] - low[1]);
+            chords.clear();
+            for (const Solid& s : spheres) {
+                const double dx = x - s.position[0], dy = y - s.position[1];
+                const double half2 = s.radius * s.radius - dx * dx - dy * dy;
+                if (half2 <= 0) continue;
+                const double half = std::sqrt(half2);
+                chords.emplace_back(s.position[2] - half, s.position[2] + half);
+            }
+            std::sort(chords.begin(), chords.end());
+            double end = -kInfinity;
+            for (const auto& [from, to] : chords) {
+                filled += std::max(0.0, to - std::max(from, end));
+                end = std::max(end, to);
+            }
+        }
+    return filled * (high[0] - low[0]) * (high[1] - low[1]) / (kLines * kLines);
 }
 
 }  // namespace lbm

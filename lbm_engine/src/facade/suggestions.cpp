@@ -49,6 +49,13 @@ double dividing(const Vec3& lengths, double dx)
                               " m for dx = ", dx));
 }
 
+void check(const Budget& budget)
+{
+    if (!(budget.memory_bytes > 0)) throw ConfigError(message("memory = ", budget.memory_bytes, ": must be > 0 bytes"));
+    if (!(budget.cost > 0))
+        throw ConfigError(message("seconds = ", budget.cost, ": must be > 0 s per simulated second"));
+}
+
 }  // namespace
 
 double resolution_error(double cells_per_diameter, double reynolds, double solid_fraction)
@@ -62,6 +69,7 @@ double suggest_dx(const PlanRequest& request, const Vec3& lengths, double solid_
 {
     for (const double length : lengths) require_positive("length of the box", length, "m");
     require_positive("smallest radius", request.smallest_radius, "m");
+    check(budget);
     PlanRequest start = with_dx(request, lengths, request.smallest_radius);
     start.grain_dt = 1;  // of no consequence
     check(start, false);
@@ -94,6 +102,7 @@ double suggest_dx(const PlanRequest& request, const Vec3& lengths, double solid_
 double suggest_dt(const PlanRequest& request, double largest, const Budget& budget)
 {
     require_positive("largest time step of the grains", largest, "s");
+    check(budget);
     PlanRequest r = request;
     r.grain_dt = largest;
     check(r, true);

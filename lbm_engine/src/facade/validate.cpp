@@ -174,6 +174,8 @@ void validate_pipe(const FluidConfig& c, const Solid& s, const Fail& fail)
 {
     if (s.axis < 0 || s.axis > 2) fail(message("axis = ", s.axis, ": must be 0, 1 or 2 for x, y, z"));
     if (s.body >= 0) fail("a pipe cannot be part of a rigid body");
+    if (s.angular_velocity != Vec3{})
+        fail("a pipe cannot turn: it fills the box to its faces; angular velocity must be 0");
     for (int d = 0; d < 3; ++d) {
         if (d == s.axis) continue;
         const double below = s.position[d] - s.radius - c.lower[d];
