@@ -25,6 +25,7 @@ inline constexpr char kBenchUsage[] =
 Measures the memory bandwidth, then the throughput of the fluid alone (fluid), in a fixed bed of 60 % solids (bed), with
 30 % (suspension) and 2 % (dilute) of moving spheres, then the bandwidth again. Table on standard error, JSON on standard output.
 Spheres stand about the places of a face-centred lattice that fits the box: d is the diameter nearest to what was asked for.
+In beds sixteen steps are made at once, as lbm run does: loads are those of the last of them.
 Slices of the triad, the fluid alone and the case take turns, so that share and ratio hold where the machine's speed wanders.
 MLUPS: million cells updated per second. share: traffic of one read and one write of each population, over the triad's. ratio: over the fluid alone,
 and its MLUPS meanwhile; of the fluid itself: over that with the first number of threads. The rest: parts of a step, and time until the first one.
