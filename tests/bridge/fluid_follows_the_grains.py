@@ -140,6 +140,24 @@ def a_time_stepper_behind_the_fluid_is_followed():
         check(-0.4 * STEP <= lead < 1.4 * STEP, "after %d steps the fluid is %g steps ahead" % (O.iter, lead / STEP))
 
 
+def loads_of_a_step_cut_short_are_not_a_kick():
+    """The fluid has done ten steps in a stream that has just begun; then the grains make one in ten of the time."""
+    fluid = one_sphere(tau=TAU, boundary=PERIODIC, initialVelocity=(1e-3, 0, 0), lubrication=False)
+    O.engines = O.engines[:4] + [PyRunner(command="O.dt = STEP", iterPeriod=1, initRun=True), NewtonIntegrator(damping=0)]
+    import builtins
+
+    builtins.STEP = STEP
+    O.dt = 10 * STEP
+    forces = []
+    for i in range(10):
+        O.run(1, True)
+        forces.append(O.forces.f(0, True)[0])
+    check(fluid.fluidSteps == 10, "%d fluid steps" % fluid.fluidSteps)
+    mean = forces[0]  # meant for the whole long step, and so that of the ten loads
+    check_close(sum(forces), 10 * mean, 1e-9 * mean, "impulse of the ten loads")
+    check(0 < min(forces) and max(forces) < 1.1 * mean, "a kick in %s" % forces)
+
+
 def a_dead_fluid_is_frozen_and_pushes_nothing():
     fluid = one_sphere(tau=TAU, fixed=False, **DRIVE)
     O.dt = STEP / 4
@@ -192,6 +210,7 @@ prove(
     the_two_clocks_stay_together,
     another_time_step_of_the_grains_is_followed,
     a_time_stepper_behind_the_fluid_is_followed,
+    loads_of_a_step_cut_short_are_not_a_kick,
     a_dead_fluid_is_frozen_and_pushes_nothing,
     a_fluid_born_dead_starts_later,
     timing_shows_the_parts,

@@ -33,12 +33,15 @@ void HeldLoads::add(const std::vector<lbm::Solid>& solids, const std::vector<lbm
     held_.swap(scratch_);
 }
 
-void HeldLoads::hold_for(double grain_dt, double beyond)
+void HeldLoads::hold_for(double grain_dt, double ahead, double fluid_dt)
 {
+    const double last = std::min(ahead, fluid_dt), before = ahead - last;
+    const double share_before = before > grain_dt ? grain_dt / before : 1;
+    const double last_now = std::clamp(grain_dt - before, 0.0, last);
     for (Held& held : held_) {
         held.now = {};
-        add_to(held.now, 1 / grain_dt, held.left);
-        add_to(held.now, -beyond / grain_dt, held.rate);
+        add_to(held.now, share_before / grain_dt, held.left);
+        add_to(held.now, (last_now - share_before * last) / grain_dt, held.rate);
     }
 }
 

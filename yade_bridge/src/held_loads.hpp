@@ -35,11 +35,13 @@ public:
     void add(const std::vector<lbm::Solid>& solids, const std::vector<lbm::SolidLoad>& loads, double dt);
 
     /**
-     * The forces of the grain step that begins now deliver all that is left, but for the share of the last fluid step that lies beyond it.
+     * Forces for the grain step that begins now: what is left of the last fluid step as its load over the time that it covers, what is left of those
+     * before (a grain step was cut short) evenly until then.
      * @param grain_dt  of that grain step [s]
-     * @param beyond    how far the last fluid step reaches beyond the end of that grain step, >= 0 [s]
+     * @param ahead     from its beginning to the end of the last fluid step [s]
+     * @param fluid_dt  of the last fluid step [s]
      */
-    void hold_for(double grain_dt, double beyond);
+    void hold_for(double grain_dt, double ahead, double fluid_dt);
 
     /// Adds the current forces and torques to the scene's.
     void write(yade::Scene& scene) const;

@@ -123,7 +123,7 @@ void LbmEngine::advance()
     while (schedule_.fluid_step_due()) step_fluid();
 
     const Stopwatch out;
-    held_.hold_for(schedule_.grain_dt(), schedule_.beyond());
+    held_.hold_for(schedule_.grain_dt(), schedule_.lead(), schedule_.fluid_dt());
     held_.write(*scene);
     account(kLoadsOut, out.seconds(), 1);
     if (settings_.lubrication) add_films();

@@ -17,6 +17,7 @@ public:
     Schedule(double grain_dt, double fluid_dt) : grain_dt_(grain_dt), fluid_dt_(fluid_dt) {}
 
     double grain_dt() const noexcept { return grain_dt_; }
+    double fluid_dt() const noexcept { return fluid_dt_; }
 
     /// Time by which the fluid is ahead of the start of the current grain step [s]; exactly 0 when it is within round-off.
     double lead() const noexcept
@@ -27,13 +28,6 @@ public:
 
     /// Whether a fluid step begins in the current grain step.
     bool fluid_step_due() const noexcept { return lead() < grain_dt_ - tolerance(); }
-
-    /// How far the fluid reaches beyond the end of the current grain step [s]; 0 where it does not.
-    double beyond() const noexcept
-    {
-        const double beyond = lead() - grain_dt_;
-        return beyond > tolerance() ? beyond : 0;
-    }
 
     void fluid_stepped() noexcept { ++fluid_steps_; }
     void grains_stepped() noexcept { ++grain_steps_; }
