@@ -214,6 +214,7 @@ CaseResult run_case(const Case& input, const std::function<void(const Progress&)
     json["steps"] = fluid.steps();
     json["converged"] = converged;
     json["tau"] = input.fluid.tau;
+    json["lattice"] = input.fluid.lattice == Lattice::d3q27 ? "D3Q27" : "D3Q19";
     json["dt"] = fluid.dt();
     json["time"] = fluid.time();
     json["superficial_velocity"] = fluid.average_velocity();

@@ -38,7 +38,7 @@ def pipe(scheme, collision, tau):
     """Flow rate in a round pipe over the exact one."""
     n, radius = 2 * PIPE_RADIUS + 6, PIPE_RADIUS
     solid = {"shape": "pipe", "axis": "x", "center": [0, n / 2 + 0.2, n / 2 + 0.3], "radius": radius}
-    result = lbm(stokes((1, n, n), [solid], tau, 1e-7, acceleration=[1e-6, 0, 0], scheme=scheme, collision=collision))
+    result = lbm(stokes((1, n, n), [solid], tau, 1e-7, acceleration=[1e-6, 0, 0], scheme=scheme, collision=collision, lattice="D3Q19"))
     return {"rate": result["superficial_velocity"][0] * n * n / 1e-6 * 8 / (math.pi * radius**4), "cells": n * n, "steps": result["steps"]}
 
 

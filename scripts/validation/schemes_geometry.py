@@ -29,7 +29,7 @@ def duct(scheme, collision, tau):
             center, extents = [2.0, CELLS / 2, CELLS / 2], [2.0, CELLS / 2, CELLS / 2]
             center[axis], extents[axis] = middle + sign * (SIDE / 2 + 1.5), 1.5
             boxes.append({"shape": "box", "center": center, "half_extents": extents, "body": 0})
-    result = lbm(stokes((4, CELLS, CELLS), boxes, tau, 1e-7, acceleration=[1e-6, 0, 0], scheme=scheme, collision=collision))
+    result = lbm(stokes((4, CELLS, CELLS), boxes, tau, 1e-7, acceleration=[1e-6, 0, 0], scheme=scheme, collision=collision, lattice="D3Q19"))
     return {"rate": result["superficial_velocity"][0] * CELLS**2 / 1e-6 / SIDE**4 / (DUCTS[1.0] / 4), "cells": result["cells"], "steps": result["steps"]}
 
 

@@ -206,6 +206,30 @@ class Results(unittest.TestCase):
         self.assertAlmostEqual(force[5][0] / force[4][0], 0, delta=1e-9)
         self.assertIsNone(result["permeability"])
 
+    def test_ducts_without_grains_get_the_isotropic_lattice(self):
+        wall = {"min": {"type": "noSlip"}, "max": {"type": "noSlip"}}
+        duct = array(domain={"cells": [1, 16, 16], "dx": DX}, boundaries={"y": wall, "z": wall}, solids=[])
+        exact = (1 - 192 / math.pi**5 * sum(math.tanh((k + 0.5) * math.pi) / (2 * k + 1) ** 5 for k in range(50))) / 12
+        for more, name, off in (({}, "D3Q27", 2e-5), ({"lattice": "D3Q19"}, "D3Q19", 1.68e-3)):
+            status, result, _ = run({**duct, **more})
+            self.assertEqual((status, result["lattice"]), (0, name))
+            found = result["superficial_velocity"][0] * VISCOSITY / (DENSITY * DRIVE * (16 * DX) ** 2)
+            self.assertAlmostEqual(found / exact - 1, off, delta=2e-5)  # docs/physics.md, "Ducts"
+
+    def test_grains_and_plates_get_the_quicker_lattice(self):
+        wall = {"min": {"type": "noSlip"}, "max": {"type": "noSlip"}}
+        ball = {"shape": "sphere", "center": [8 * DX] * 3, "radius": 4 * DX}
+        cube = {"shape": "box", "center": [8 * DX] * 3, "half_extents": [3 * DX] * 3}
+        for solids, boundaries, lattice in (
+            ([], {"y": wall}, "D3Q19"),
+            ([ball], {"y": wall, "z": wall}, "D3Q19"),
+            ([{**cube, "free": True, "density": 2000}], {}, "D3Q19"),
+            ([cube], {}, "D3Q27"),
+            ([{**ball, "shape": "pipe"}], {}, "D3Q27"),
+        ):
+            case = array(domain={"cells": [16] * 3, "dx": DX}, boundaries=boundaries, solids=solids, stop={"max_steps": 1})
+            self.assertEqual(run(case)[1]["lattice"], lattice)
+
     def test_pressure_faces_drive_a_flow_as_a_uniform_drive_does(self):
         drop = DENSITY * DRIVE * 8 * DX
         ends = {"min": {"type": "pressure", "pressure": drop}, "max": {"type": "pressure", "pressure": 0}}
