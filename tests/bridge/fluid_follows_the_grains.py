@@ -106,6 +106,58 @@ def loads_are_steady_at_any_ratio_of_the_steps():
             check_close(speed, speed_then, 1e-3 * abs(speed_then), "speed, ratio %g" % ratio)
 
 
+def grains_carried_by_films_approach_alike():
+    """A light sphere rises against the top wall, a heavy one sinks onto the floor, through films that bear nearly all of their weight."""
+    radius, cells = 4e-3, 16
+    for density in (400, 2500):
+        speed, start = 0.004, 4.3e-3 if density > 1000 else cells * FLUID["dx"] - 4.3e-3
+        gravity = (0, 0, -speed * 9 * 0.1 / (2 * radius**2 * abs(density - 1000)))  # Stokes
+        gaps = []
+        for ratio in (1, 0.3, 1.5):
+            O.reset()
+            O.bodies.append(sphere((8.3e-3, 8.1e-3, start), radius, material=FrictMat(density=density)))
+            fluid = box((cells,) * 3, viscosity=0.1, tau=1, gravity=gravity)
+            O.engines, O.dt = engines(fluid, gravity), fluid_step(1, viscosity=0.1) / ratio
+            O.run(int(200 * ratio), True)
+            height = O.bodies[0].state.pos[2]
+            gaps.append(min(height, cells * FLUID["dx"] - height) - radius)
+        print("  gaps [cells]:", ["%.4f" % (1e3 * gap) for gap in gaps])
+        check(gaps[0] < 0.29e-3, "the sphere hardly moves")
+        for gap in gaps[1:]:  # measured 1e-3 of the way
+            check_close(gap, gaps[0], 5e-3 * (0.3e-3 - gaps[0]), "gap of a sphere of %g kg/m3" % density)
+
+
+def a_blocked_clump_turns_alike():
+    """YADE turns a clump of which anything is blocked about the axes of space; so does the look ahead."""
+    spins = []
+    for ratio in (1, 0.2):
+        O.reset()
+        material = FrictMat(density=2500)
+        clump, _ = O.bodies.appendClumped(
+            [sphere((7e-3, 8e-3, 10.5e-3), 3e-3, material=material), sphere((11e-3, 8.4e-3, 9.3e-3), 2.2e-3, material=material)],
+            discretization=50,
+        )
+        O.bodies[clump].state.blockedDOFs = "xyzXZ"
+        O.forces.setPermT(clump, (1e-7, 2e-8, 1e-7))
+        fluid = box((18, 16, 20), viscosity=0.1, tau=1, boundary=["noSlip"] * 6)
+        O.engines, O.dt = engines(fluid), fluid_step(1, viscosity=0.1) / ratio
+        O.run(int(100 * ratio), True)
+        spins.append(O.bodies[clump].state.angVel[1])
+    check(spins[0] > 0.1, "no spin: %s" % spins)
+    check_close(spins[1], spins[0], 2e-3 * spins[0], "spin with five fluid steps in a grain step")
+
+
+def grains_that_nothing_moves_stay():
+    """While the integrator is dead a force does not move a grain, also not in the fluid's view."""
+    fluid = one_sphere(fixed=False, tau=1, gravity=(0, 0, -9.81))
+    O.engines[4].dead = True
+    O.forces.setPermF(0, (3e-4, 0, 0))
+    O.dt = 4 * fluid_step(1)
+    O.run(5, True)
+    buoyancy = 9.81 * 1000 * 4 / 3 * math.pi * 4e-3**3
+    check_close((fluid.fluidForce(0) - Vector3(0, 0, buoyancy)).norm(), 0, 1e-9 * buoyancy, "force beside buoyancy")
+
+
 def the_two_clocks_stay_together():
     fluid = one_sphere((4, 4, 4), radius=2e-3, tau=TAU, **DRIVE)
     O.dt = STEP / 3
@@ -207,6 +259,9 @@ prove(
     a_long_grain_step_is_divided,
     light_grains_may_have_long_steps,
     loads_are_steady_at_any_ratio_of_the_steps,
+    grains_carried_by_films_approach_alike,
+    a_blocked_clump_turns_alike,
+    grains_that_nothing_moves_stay,
     the_two_clocks_stay_together,
     another_time_step_of_the_grains_is_followed,
     a_time_stepper_behind_the_fluid_is_followed,

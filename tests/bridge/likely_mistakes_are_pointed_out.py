@@ -31,6 +31,20 @@ def densities_in_other_units_are_pointed_out():
     check("times the density" not in str(fluid.plan()), "warning for a fixed body")
 
 
+def light_grains_beside_each_other_are_pointed_out():
+    light = FrictMat(density=400)
+    O.bodies.append([sphere((5e-3, 6e-3, 6e-3), 4e-3, material=light), sphere((14e-3, 6e-3, 6e-3), 4e-3, material=light)])
+    O.engines = engines(box((20, 12, 12), tau=1.5))
+    O.dt = 1e-4
+    plan = str(O.engines[3].plan())
+    check("unstable below 0.5 times with tau = 1.5; use tau <= 1.3" in plan, "no warning: %s" % plan)
+    O.bodies[1].state.blockedDOFs = "xyzXYZ"
+    check("unstable" not in str(O.engines[3].plan()), "warning for a sphere that is alone")
+    O.bodies[1].state.blockedDOFs = ""
+    O.engines[3].tau = 1.2
+    check("unstable" not in str(O.engines[3].plan()), "warning for a short step")
+
+
 def spheres_that_overlap_are_pointed_out():
     fluid = one_sphere()
     one = O.bodies[0]
@@ -151,6 +165,7 @@ prove(
     more_threads_than_processors_are_not_used,
     bodies_outside_the_box_are_pointed_out,
     densities_in_other_units_are_pointed_out,
+    light_grains_beside_each_other_are_pointed_out,
     spheres_that_overlap_are_pointed_out,
     shapes_that_the_fluid_does_not_see_are_pointed_out,
     a_body_that_is_moved_without_a_velocity_is_pointed_out,

@@ -84,8 +84,7 @@ FluidPlan LbmEngine::plan() const
     const lbm::FluidConfig config = fluid_config(settings_, plan.tau, 0);
     if (!fluid_) lbm::Fluid::check(config);  // one that is there need not fit once more
     std::vector<std::string> warnings = scene_warnings(now, settings_, solids);
-    const std::string overlap = overlap_warning(config, solids);
-    if (!overlap.empty()) warnings.push_back(overlap);
+    for (std::string& warning : fluid_warnings(config, solids)) warnings.push_back(std::move(warning));
     for (const std::string& warning : warnings) {
         plan.warnings.push_back(warning);
         if (!plan.report.empty() && plan.report.back() != '\n') plan.report += '\n';

@@ -96,12 +96,13 @@ std::unordered_map<int, ImpulseOnGrain> impulses_on_clumps(yade::Scene& scene, d
     return impulses;
 }
 
-yade::Vector3r gravity_of(const yade::Scene& scene)
+/// Null where nothing moves the grains.
+const yade::NewtonIntegrator* integrator_of(const yade::Scene& scene)
 {
     for (const auto& engine : scene.engines)
         if (engine && !engine->dead && engine->getClassName() == "NewtonIntegrator")
-            return static_cast<const yade::NewtonIntegrator&>(*engine).gravity;
-    return yade::Vector3r::Zero();
+            return static_cast<const yade::NewtonIntegrator*>(engine.get());
+    return nullptr;
 }
 
 /// Changes of velocity and spin.
@@ -109,12 +110,13 @@ struct Change {
     yade::Vector3r velocity, spin;
 };
 
+/// As NewtonIntegrator has it: a body of which anything is blocked is turned about the axes of space by its principal moments.
 Change change_by(const ImpulseOnGrain& on, const State& state, const yade::Vector3r& fall)
 {
     Change change{yade::Vector3r::Zero(), yade::Vector3r::Zero()};
     if (state.mass > 0) change.velocity = on.linear / state.mass + fall;
     if (state.inertia.minCoeff() > 0) {
-        const yade::Quaternionr& q = state.se3.orientation;
+        const yade::Quaternionr q = state.blockedDOFs ? yade::Quaternionr::Identity() : state.se3.orientation;
         change.spin = q * (q.conjugate() * on.angular).cwiseQuotient(state.inertia);
     }
     for (int d = 0; d < 3; ++d) {
@@ -128,9 +130,11 @@ Change change_by(const ImpulseOnGrain& on, const State& state, const yade::Vecto
 
 void foretell(yade::Scene& scene, double dt, std::vector<lbm::Solid>& solids, const HeldLoads& owed)
 {
+    const yade::NewtonIntegrator* integrator = integrator_of(scene);
+    if (!integrator) return;
     scene.forces.sync();
     const auto& bodies = scene.bodies->body;
-    const yade::Vector3r fall = dt * gravity_of(scene);
+    const yade::Vector3r fall = dt * integrator->gravity;
     const bool clumps = std::any_of(solids.begin(), solids.end(), [](const lbm::Solid& s) { return s.body >= 0; });
     const auto on_clumps = clumps ? impulses_on_clumps(scene, dt, owed) : std::unordered_map<int, ImpulseOnGrain>{};
     for (lbm::Solid& solid : solids) {

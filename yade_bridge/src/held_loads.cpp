@@ -63,11 +63,23 @@ void HeldLoads::write(yade::Scene& scene) const
     }
 }
 
-Impulse HeldLoads::owed(std::int64_t id) const
+const HeldLoads::Held* HeldLoads::find(std::int64_t id) const
 {
     const auto held =
         std::lower_bound(held_.begin(), held_.end(), id, [](const Held& h, std::int64_t i) { return h.id < i; });
-    return held != held_.end() && held->id == id ? held->left : Impulse{};
+    return held != held_.end() && held->id == id ? &*held : nullptr;
+}
+
+Impulse HeldLoads::owed(std::int64_t id) const
+{
+    const Held* held = find(id);
+    return held ? held->left : Impulse{};
+}
+
+Impulse HeldLoads::current(std::int64_t id) const
+{
+    const Held* held = find(id);
+    return held ? held->now : Impulse{};
 }
 
 lbm::Vec3 HeldLoads::undelivered(double elapsed) const

@@ -51,11 +51,16 @@ public:
 
     /// What a body has not received yet.
     Impulse owed(std::int64_t id) const;
+    /// Force and torque now on a body [N, N m].
+    Impulse current(std::int64_t id) const;
 
     /// Sum of the linear impulses left after this much more time under the current forces [N s].
     lbm::Vec3 undelivered(double elapsed) const;
 
 private:
+    struct Held;
+    const Held* find(std::int64_t id) const;
+
     struct Held {
         std::int64_t id;
         Impulse left;

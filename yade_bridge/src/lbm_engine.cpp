@@ -171,8 +171,7 @@ void LbmEngine::start()
     const lbm::Plan plan = lbm::plan_time_step(request);
     asked_.warnings.insert(asked_.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
     auto fluid = std::make_unique<lbm::Fluid>(fluid_config(settings_, plan.tau, threads_to_use()));
-    const std::string overlap = overlap_warning(fluid->config(), solids_);
-    if (!overlap.empty()) asked_.warnings.push_back(overlap);
+    for (std::string& warning : fluid_warnings(fluid->config(), solids_)) asked_.warnings.push_back(std::move(warning));
     if (loaded_ && scene->iter > 0)
         asked_.warnings.push_back("the scene goes on at step " + std::to_string(scene->iter) +
                                   " with a fluid at rest: files of scenes do not hold the fluid.");
@@ -255,7 +254,7 @@ double LbmEngine::length_of_last_grain_step(const yade::Scene& now) const
 
 /**
  * A fluid step that begins within a grain step meets the grains where they will be by then. They have taken up their loads of the fluid steps
- * before: at the velocity of the grain step's beginning, light grains in a viscous liquid would get far more than it takes to stop them.
+ * before, and what films do to them: at the velocity of the grain step's beginning, light grains in a viscous liquid would get far more than it takes to stop them.
  */
 void LbmEngine::step_fluid()
 {
@@ -264,7 +263,15 @@ void LbmEngine::step_fluid()
     std::swap(solids_, solids_before_);
     read_solids(*scene, {settings_.mask, settings_.ids}, solids_);
     const double lead = schedule_.lead();
-    if (lead > 0) foretell(*scene, lead, solids_, held_);
+    if (lead > 0) {
+        HeldLoads owed = held_;
+        if (settings_.lubrication) {
+            surfaces_ = solids_;
+            foretell(*scene, lead, surfaces_, held_);
+            owed.add(surfaces_, fluid_->film_loads(surfaces_, lead), lead);
+        }
+        foretell(*scene, lead, solids_, owed);
+    }
     for (lbm::Solid& solid : solids_)
         for (int d = 0; d < 3; ++d) solid.position[d] += lead * solid.velocity[d];
     look_for_moves_without_velocity();

@@ -45,14 +45,14 @@ std::string lubrication_law(const yade::Scene& scene);
 void check_lubrication(const Settings& settings, const std::string& law);
 
 /**
- * What in the scene is likely not meant, each a sentence: no body in the fluid's box, bodies that are too light or of a shape that the fluid does not see, clumps whose mass is not that of their volume, damping, another gravity, contacts that do not cross a periodic
+ * What in the scene is likely not meant, each a sentence: no body in the fluid's box, bodies of a shape that the fluid does not see, clumps whose mass is not that of their volume, damping, another gravity, contacts that do not cross a periodic
  * face, a time stepper behind the fluid. Asks Python: the interpreter must be held.
  */
 std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings& settings,
                                         const std::vector<lbm::Solid>& solids);
 
-/// What spheres that overlap without being one clump do, a sentence; empty where none do.
-std::string overlap_warning(const lbm::FluidConfig& config, const std::vector<lbm::Solid>& solids);
+/// The same of this fluid and its solids: free bodies that are too light, spheres that overlap without being one clump.
+std::vector<std::string> fluid_warnings(const lbm::FluidConfig& config, const std::vector<lbm::Solid>& solids);
 
 /**
  * Frequency sqrt(k / m) of the stiffest contact [rad/s]: of those that there are, else of two equal spheres, from Young's moduli and radii

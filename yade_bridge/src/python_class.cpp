@@ -143,10 +143,12 @@ void define_queries(PythonClass& python_class)
         .def(
             "fluidForce", +[](const LbmEngine& e, int id) { return to_python(e.load_on(id).force); },
             (bp::arg("self"), bp::arg("id")),
-            "Force on a body in the last fluid step, buoyancy included [N]; ValueError if it was not in the fluid.")
+            "Force on a body in the last step of the grains, the mean of the fluid steps in it, buoyancy and films "
+            "included "
+            "[N]; ValueError if it was not in the fluid.")
         .def(
             "fluidTorque", +[](const LbmEngine& e, int id) { return to_python(e.load_on(id).torque); },
-            (bp::arg("self"), bp::arg("id")), "Torque on a body about its centre in the last fluid step [N m].")
+            (bp::arg("self"), bp::arg("id")), "Torque on a body about its centre in the last step of the grains [N m].")
         .def(
             "stresslet", +[](const LbmEngine& e, int id) { return to_python(e.load_on(id).stresslet); },
             (bp::arg("self"), bp::arg("id")),
@@ -180,9 +182,11 @@ void define_queries(PythonClass& python_class)
         .def("totalMass", &LbmEngine::total_mass, "Mass of the lattice's fluid [kg].")
         .def(
             "totalMomentum", +[](const LbmEngine& e) { return to_python(e.total_momentum()); },
-            "Momentum of the fluid and what is on its way to the grains [kg m/s], at the end of a step: the sum with "
-            "the "
-            "grains' own m v changes by drive, weight, walls and other engines only.")
+            "Momentum of the fluid and what is on its way to the grains [kg m/s], between steps or from an engine "
+            "before "
+            "NewtonIntegrator: the sum with the grains' own m v changes by drive, weight, walls and other engines "
+            "only. "
+            "An engine behind NewtonIntegrator would count the loads of its step twice.")
         .def(
             "stress", &stress,
             "Mean stress in the fluid's box [Pa], tension positive, as a dict of matrices: 'fluid' (pressure, viscous "

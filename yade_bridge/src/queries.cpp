@@ -47,7 +47,10 @@ lbm::SolidLoad LbmEngine::load_on(int id) const
     const std::lock_guard lock(mutex_);
     const lbm::SolidLoad* lattice = find_load(solids_, fluid("fluidForce, fluidTorque, stresslet").loads(), id);
     if (!lattice) throw std::invalid_argument("body " + std::to_string(id) + why_not_in_fluid(id));
+    const Impulse now = held_.current(id);
     lbm::SolidLoad load = *lattice;
+    load.force = now.linear;
+    load.torque = now.angular;
     if (const lbm::SolidLoad* films = find_load(surfaces_, film_loads_, id))
         for (int a = 0; a < 3; ++a) {
             load.force[a] += films->force[a];

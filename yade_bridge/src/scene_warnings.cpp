@@ -52,29 +52,44 @@ bool may_reach_into(const Settings& s, const lbm::Solid& solid)
 
 double sphere_volume(double radius) { return 4 * std::acos(-1.0) / 3 * std::pow(radius, 3); }
 
-/// Of free bodies; lighter ones follow the fluid unstably (docs/physics.md, "Loads").
+/// Of a free body that is alone; lighter ones follow the fluid unstably (docs/physics.md, "Loads").
 constexpr double kLightest = 0.1;
 
+/// The same of free bodies less than about a cell apart.
+double lightest_of_many(double tau) { return std::max(0.2, 0.5 * (tau - 0.5)); }
+
 /// Of a free body; of a member of a clump, that of the clump over its own volume, which is more.
-double density_ratio(const Settings& s, const lbm::Solid& solid)
+double density_ratio(double fluid_density, const lbm::Solid& solid)
 {
     const auto& h = solid.half_extents;
     const double volume = solid.shape == lbm::Shape::box ? 8 * h[0] * h[1] * h[2] : sphere_volume(solid.radius);
-    return solid.mass / (volume * s.density);
+    return solid.mass / (volume * fluid_density);
 }
 
-void warn_about_light_bodies(const Settings& s, const std::vector<lbm::Solid>& solids,
+void warn_about_light_bodies(const lbm::FluidConfig& config, const std::vector<lbm::Solid>& solids,
                              std::vector<std::string>& warnings)
 {
+    const auto ratio_of = [&](const lbm::Solid& solid) { return density_ratio(config.density, solid); };
     const auto lightest = std::min_element(solids.begin(), solids.end(), [&](const lbm::Solid& a, const lbm::Solid& b) {
-        return density_ratio(s, a) < density_ratio(s, b);
+        return ratio_of(a) < ratio_of(b);
     });
-    if (lightest == solids.end() || density_ratio(s, *lightest) >= kLightest) return;
-    const double ratio = density_ratio(s, *lightest);
-    warnings.push_back("Body " + std::to_string(lightest->id) + " has " + text(ratio) +
-                       " times the density of the fluid (" + text(ratio * s.density) +
-                       " kg/m3): free bodies are not stable below " + text(kLightest) +
-                       " times; is the density of its material in kg/m3?");
+    if (lightest == solids.end()) return;
+    const double ratio = ratio_of(*lightest), limit = lightest_of_many(config.tau);
+    const std::string body =
+        "Body " + std::to_string(lightest->id) + " has " + text(ratio) + " times the density of the fluid";
+    const auto is_another = [&](const lbm::Solid& other) {
+        return std::isfinite(other.mass) && other.id != lightest->id &&
+               (other.body < 0 || other.body != lightest->body);
+    };
+    if (ratio < kLightest)
+        warnings.push_back(body + " (" + text(ratio * config.density) + " kg/m3): free bodies are not stable below " +
+                           text(kLightest) + " times; is the density of its material in kg/m3?");
+    else if (ratio < limit && std::any_of(solids.begin(), solids.end(), is_another))
+        warnings.push_back(body + ": where free bodies are less than about a cell apart they may be unstable below " +
+                           text(limit) + " times with tau = " + text(config.tau) +
+                           (ratio > lightest_of_many(0)
+                                ? "; use tau <= " + text(0.5 + 2 * ratio)
+                                : ", and below " + text(lightest_of_many(0)) + " with any tau"));
 }
 
 /// Relative difference from which on the mass of a clump is worth a warning.
@@ -175,19 +190,28 @@ double frequency_of_contacts(const bp::object& omega)
     return std::sqrt(largest2);
 }
 
-}  // namespace
-
-std::string overlap_warning(const lbm::FluidConfig& config, const std::vector<lbm::Solid>& solids)
+void warn_about_overlaps(const lbm::FluidConfig& config, const std::vector<lbm::Solid>& solids,
+                         std::vector<std::string>& warnings)
 {
     const lbm::Overlaps found = lbm::overlaps(config, solids);
-    if (found.pairs == 0) return {};
+    if (found.pairs == 0) return;
     const std::string one = std::to_string(found.one), other = std::to_string(found.other);
-    return "Spheres " + one + " and " + other + " share " + text(std::round(1e3 * found.shared) / 10) +
-           " % of the smaller one's volume" +
-           (found.pairs > 1 ? " (the most of " + std::to_string(found.pairs) + " pairs)" : "") +
-           " and are not one clump: it counts twice, in buoyancy and in the resistance to the flow; clump them, "
-           "O.bodies.clump([" +
-           one + ", " + other + "]), or leave one of them out with mask or ids.";
+    warnings.push_back("Spheres " + one + " and " + other + " share " + text(std::round(1e3 * found.shared) / 10) +
+                       " % of the smaller one's volume" +
+                       (found.pairs > 1 ? " (the most of " + std::to_string(found.pairs) + " pairs)" : "") +
+                       " and are not one clump: it counts twice, in buoyancy and in the resistance to the flow; clump "
+                       "them, O.bodies.clump([" +
+                       one + ", " + other + "]), or leave one of them out with mask or ids.");
+}
+
+}  // namespace
+
+std::vector<std::string> fluid_warnings(const lbm::FluidConfig& config, const std::vector<lbm::Solid>& solids)
+{
+    std::vector<std::string> warnings;
+    warn_about_light_bodies(config, solids, warnings);
+    warn_about_overlaps(config, solids, warnings);
+    return warnings;
 }
 
 double contact_frequency(const yade::Scene& scene, const std::vector<lbm::Solid>& solids)
@@ -245,7 +269,6 @@ std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings
     if (std::none_of(solids.begin(), solids.end(), [&](const lbm::Solid& solid) { return may_reach_into(s, solid); }))
         warnings.push_back("No body is in the fluid's box, " + text(s.lower) + " to " + text(s.upper) +
                            " m: have they the same origin, and are all lengths in metres?");
-    warn_about_light_bodies(s, solids, warnings);
     warn_about_masses_of_clumps(scene, solids, warnings);
     warn_about_other_shapes(scene, s, warnings);
     bool behind_fluid = false;
@@ -253,10 +276,11 @@ std::vector<std::string> scene_warnings(const yade::Scene& scene, const Settings
         if (!other) continue;
         const std::string name = other->getClassName();
         if (name == "NewtonIntegrator") warn_about_integrator(bp::object(other), s, warnings);
-        if (name.ends_with("TimeStepper") && behind_fluid && s.lubrication)
+        if (name.ends_with("TimeStepper") && behind_fluid)
             warnings.emplace_back(
-                name + " stands behind LbmEngine: where it lengthens O.dt, films push too hard for that step; "
-                       "put it before.");
+                name +
+                " stands behind LbmEngine: where it lengthens O.dt, loads and films push too hard for that step; "
+                "put it before.");
         behind_fluid = behind_fluid || dynamic_cast<const LbmEngine*>(other.get());
     }
     const bool periodic_fluid = std::find(s.boundary.begin(), s.boundary.end(), "periodic") != s.boundary.end();
