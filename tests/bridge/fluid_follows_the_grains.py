@@ -147,6 +147,22 @@ def a_blocked_clump_turns_alike():
     check_close(spins[1], spins[0], 2e-3 * spins[0], "spin with five fluid steps in a grain step")
 
 
+def films_resist_directions_that_are_prescribed():
+    """A sphere is pushed onto the floor, its other directions free or blocked: the film has to resist alike, with any grain step."""
+    forces = []
+    for blocked, ratio in (("xyzXYZ", 1), ("z", 1), ("zXY", 0.3), ("z", 10)):
+        O.reset()
+        O.bodies.append(sphere((8.3e-3, 8.1e-3, 4.1e-3), 4e-3, material=FrictMat(density=2500)))
+        state = O.bodies[0].state
+        state.blockedDOFs, state.vel = blocked, (0, 0, -1e-5)
+        fluid = box((16,) * 3, viscosity=0.1, tau=1)
+        O.engines, O.dt = engines(fluid), fluid_step(1, viscosity=0.1) / ratio
+        O.run(round(30 * ratio), True)
+        forces.append(fluid.fluidForce(0)[2])
+    for force in forces[1:]:
+        check_close(force, forces[0], 0.01 * forces[0], "force on a sphere with some directions blocked, %s" % forces)
+
+
 def grains_that_nothing_moves_stay():
     """While the integrator is dead a force does not move a grain, also not in the fluid's view."""
     fluid = one_sphere(fixed=False, tau=1, gravity=(0, 0, -9.81))
@@ -261,6 +277,7 @@ prove(
     loads_are_steady_at_any_ratio_of_the_steps,
     grains_carried_by_films_approach_alike,
     a_blocked_clump_turns_alike,
+    films_resist_directions_that_are_prescribed,
     grains_that_nothing_moves_stay,
     the_two_clocks_stay_together,
     another_time_step_of_the_grains_is_followed,

@@ -62,6 +62,7 @@ lbm::Solid solid(const Body& body, const State& moving)
     // the bits of YADE's State: translations in the lower three, rotations in the next three
     constexpr unsigned kTranslations = 7, kRotations = 56;
     if ((moving.blockedDOFs & kTranslations) != kTranslations) result.mass = moving.mass;
+    for (std::size_t d = 0; d < 3; ++d) result.held[d] = moving.blockedDOFs & (1u << d);
     if ((moving.blockedDOFs & kRotations) != kRotations) result.inertia = moving.inertia.minCoeff();
     return result;
 }

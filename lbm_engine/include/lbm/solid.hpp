@@ -40,6 +40,7 @@ struct Solid {
     double mass = std::numeric_limits<double>::infinity();  ///< of the whole rigid body [kg], > 0
     double inertia =
         std::numeric_limits<double>::infinity();  ///< smallest principal moment, of the whole rigid body [kg m2], > 0
+    std::array<bool, 3> held{};  ///< along which axes it moves as it is told though `mass` is finite; for films alone
 };
 
 /**

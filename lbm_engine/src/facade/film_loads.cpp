@@ -32,8 +32,12 @@ const std::vector<SolidLoad>& Fluid::Implementation::film_loads(const std::vecto
         sphere.centre = centre_in_box(solid);
         sphere.radius = solid.shape == Shape::sphere ? solid.radius / own.length : 0;
         sphere.body = solid.body;
-        sphere.motion = {(1 / own.velocity) * solid.velocity, own.time * solid.angular_velocity, own.mass / solid.mass,
-                         own.inertia / solid.inertia};
+        sphere.motion = {(1 / own.velocity) * solid.velocity,
+                         own.time * solid.angular_velocity,
+                         own.mass / solid.mass,
+                         own.inertia / solid.inertia,
+                         {}};
+        for (int d = 0; d < 3; ++d) sphere.motion.yields[d] = solid.held[d] ? 0 : 1;
         sphere.lever = (1 / own.length) * solid.lever;
     }
     const auto& found = films.solve(film_spheres, walls, config.viscosity / config.density / own.viscosity);

@@ -71,32 +71,39 @@ Film make_film(const Vec3& normal, double a1, double a2, double distance, const 
 
 namespace {
 
+/// Component by component.
+Vec3 times(const Vec3& a, const Vec3& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
+
 /// How a body answers to an impulse at the centre of one of its surfaces, and to one that turns it. Off its centre of mass the two go together: each is taken so
 /// large that their sum is no less than the true answer, whatever the directions. A film that thinks its bodies lighter than they are takes energy all the same.
 struct Lightness {
-    double push, turn;
+    double push;     ///< in any direction
+    double squeeze;  ///< along the normal
+    double turn;
 };
-Lightness lightness(const FilmBody& body, const Vec3& lever)
+Lightness lightness(const FilmBody& body, const Vec3& lever, const Vec3& normal)
 {
+    const double squeeze = body.inverse_mass * dot(normal, times(body.yields, normal));
     const double lever2 = dot(lever, lever);
-    if (lever2 == 0) return {body.inverse_mass, body.inverse_inertia};
-    return {body.inverse_mass + 2 * lever2 * body.inverse_inertia, 2 * body.inverse_inertia};
+    if (lever2 == 0) return {body.inverse_mass, squeeze, body.inverse_inertia};
+    const double by_turning = 2 * lever2 * body.inverse_inertia;
+    return {body.inverse_mass + by_turning, squeeze + by_turning, 2 * body.inverse_inertia};
 }
 
 }  // namespace
 
 double Film::relax(FilmBody& first, FilmBody& second)
 {
-    const Lightness light[2] = {lightness(first, lever[0]), lightness(second, lever[1])};
-    const double push = light[0].push + light[1].push;
+    const Lightness light[2] = {lightness(first, lever[0], normal), lightness(second, lever[1], normal)};
+    const double push = light[0].push + light[1].push, push_along = light[0].squeeze + light[1].squeeze;
     const Vec3 v = second.velocity + cross(second.angular_velocity, lever[1]) - first.velocity -
                    cross(first.angular_velocity, lever[0]);
     const double separation = dot(v, normal);
     const Vec3 v_t = v - separation * normal;
 
-    // N = -squeeze (w + push (N - N_before))
+    // N = -squeeze (w + push_along (N - N_before))
     const double squeeze = resistance.squeeze;
-    const double squeezed_now = squeeze * (push * squeezed - separation) / (1 + squeeze * push);
+    const double squeezed_now = squeeze * (push_along * squeezed - separation) / (1 + squeeze * push_along);
 
     // S = -Z (u + K (S - S_before)), the same 2 x 2 for both tangential directions
     const Vec3 u[2] = {arm[0] * cross(first.angular_velocity, normal) - part[0] * v_t,
@@ -119,8 +126,8 @@ double Film::relax(FilmBody& first, FilmBody& second)
     const double d_squeezed = squeezed_now - squeezed;
     const Vec3 d_sheared[2] = {sheared_now[0] - sheared[0], sheared_now[1] - sheared[1]};
     const Vec3 on_second = d_squeezed * normal + part[1] * d_sheared[1] - part[0] * d_sheared[0];
-    first.velocity -= first.inverse_mass * on_second;
-    second.velocity += second.inverse_mass * on_second;
+    first.velocity -= first.inverse_mass * times(first.yields, on_second);
+    second.velocity += second.inverse_mass * times(second.yields, on_second);
     first.angular_velocity +=
         first.inverse_inertia * (arm[0] * cross(normal, d_sheared[0]) - cross(lever[0], on_second));
     second.angular_velocity +=

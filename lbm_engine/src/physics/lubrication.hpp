@@ -42,6 +42,7 @@ struct SeenGaps {
 struct FilmBody {
     Vec3 velocity{}, angular_velocity{};
     double inverse_mass = 0, inverse_inertia = 0;
+    Vec3 yields{1, 1, 1};  ///< 0 along axes along which its motion is prescribed all the same
 };
 
 /**
